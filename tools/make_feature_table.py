@@ -18,7 +18,7 @@ LOCKS = {"TLParamsLocked": "; locked while streaming", "ExposureAutoReg": "; loc
 MOST_ENTRIES = 20  # longer lists are left to the manual
 OWN_CATEGORIES = {"StatisticsControl", "FaultControl"}
 OWN = {"ChunkPoseSequence", "ChunkPoseTime", "ChunkExposureMid", "ChunkTriggerSequence", "ChunkFaults",
-       "AcquisitionResultingFrameRate", "ResultingFrameRate"}
+       "AcquisitionResultingFrameRate", "ResultingFrameRate", "PtpTimeScale", "PtpCurrentUtcOffset", "PtpSteps"}
 
 
 def plain(element):

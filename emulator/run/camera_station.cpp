@@ -236,6 +236,13 @@ std::vector<std::string> CameraStation::new_faults() {
     return out;
 }
 
+std::vector<SinkNote> CameraStation::new_notes() {
+    std::vector<SinkNote> out;
+    for (const auto& sink : sinks_)
+        for (SinkNote& note : sink->take_notes()) out.push_back(std::move(note));
+    return out;
+}
+
 void CameraStation::serve_faults(double seconds) {
     for (; next_fault_ < timed_faults_.size() && timed_faults_[next_fault_].at_s <= seconds; ++next_fault_)
         faults_.order(order_of(timed_faults_[next_fault_]));

@@ -109,6 +109,8 @@ class CameraStation {
     // Returns why outputs cannot deliver, once for each output. Allocates nothing while there is nothing to
     // report. Owner thread.
     std::vector<std::string> new_faults();
+    // Returns what happened at the outputs since the last call.
+    std::vector<SinkNote> new_notes();
     // Adds an output that other stations also feed (telemetry). Before prepare().
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
     // Returns what one more output works with, an OutputMeter of its own included.

@@ -394,8 +394,11 @@ void Emulator::print_output_faults(std::int64_t now_ns) {
     constexpr std::int64_t kBetweenLooks_ns = 250'000'000;
     if (now_ns < next_fault_look_ns_) return;
     next_fault_look_ns_ = now_ns + kBetweenLooks_ns;
-    for (const auto& station : stations_)
+    for (const auto& station : stations_) {
         for (const std::string& fault : station->new_faults()) spdlog::error("{}", fault);
+        for (const SinkNote& note : station->new_notes())
+            spdlog::log(note.warning ? spdlog::level::warn : spdlog::level::info, "{}", note.text);
+    }
 }
 
 // In a log, without the line of rates, reports missed exposures, at a readable rate.

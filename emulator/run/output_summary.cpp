@@ -30,6 +30,20 @@ nlohmann::json counts_of(const SinkReport& output) {
             {"unwanted", output.unwanted}};
 }
 
+nlohmann::json json_of(const ClockReport& c) {
+    const auto or_null = [](const auto& value) {
+        return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+    };
+    return {{"source", c.source},
+            {"state", c.state},
+            {"scale", c.scale},
+            {"offset_from_master_ns", or_null(c.offset_from_master_ns)},
+            {"mean_path_delay_ns", or_null(c.mean_path_delay_ns)},
+            {"rate_correction_ppm", or_null(c.rate_correction_ppm)},
+            {"steps", c.steps},
+            {"master", c.master.empty() ? nlohmann::json(nullptr) : nlohmann::json(c.master)}};
+}
+
 std::string line_of(const std::vector<SinkReport>& outputs) {
     std::string out;
     for (const SinkReport& o : outputs) {

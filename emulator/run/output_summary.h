@@ -19,6 +19,9 @@ SinkReport output_report(const RecorderReport& recorder);
 
 // {"name", "frames", "dropped", "unwanted"}
 nlohmann::json counts_of(const SinkReport& output);
+// {"source", "state", "scale", "offset_from_master_ns", "mean_path_delay_ns", "rate_correction_ppm", "steps",
+// "master"}; null for what is not known.
+nlohmann::json json_of(const ClockReport& clock);
 // Returns "files out 16 frames, 14 lost; gige 127.0.0.1 28 frames, 2 that nobody took". Outputs without
 // frames are left out.
 std::string line_of(const std::vector<SinkReport>& outputs);

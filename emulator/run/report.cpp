@@ -53,6 +53,7 @@ json outputs_report(const CameraStation& station) {
     for (const SinkReport& r : output_reports(station)) {
         json output = counts_of(r);
         for (const auto& [name, value] : r.figures) output[name] = value;
+        if (r.clock) output["clock"] = json_of(*r.clock);
         outputs.push_back(output);
     }
     return outputs;

@@ -41,6 +41,17 @@ struct FrameRecord {
 
 class TruthListener;
 
+// The clock of an output's time stamps.
+struct ClockReport {
+    std::string source;  // tai, ptp, free
+    std::string state;   // one of IEEE 1588's port states
+    std::string scale;   // monotonic, device, arbitrary, UTC, TAI
+    std::optional<std::int64_t> offset_from_master_ns{}, mean_path_delay_ns{};
+    std::optional<double> rate_correction_ppm{};  // the servo adds it to the clock's rate
+    std::uint32_t steps = 0;
+    std::string master{};  // EUI-64; empty: none
+};
+
 // Says what became of an output's frames: delivered, lost, or wanted by nobody.
 struct SinkReport {
     std::string name;          // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
@@ -58,6 +69,13 @@ struct SinkReport {
     // Packets of frames that were to be sent and were not, without those that faults took away, and the first
     // frame that lacks one.
     std::uint64_t packets_lost = 0, first_with_lost_packet = 0;
+    std::optional<ClockReport> clock{};  // nothing: the output has no clock of its own
+};
+
+// Something that happened at an output and belongs into the log.
+struct SinkNote {
+    std::string text;  // begins with the output's name
+    bool warning = false;
 };
 
 // An event of the camera that comes before its frame does.
@@ -93,6 +111,8 @@ class FrameSink {
     virtual TruthListener* truth_listener() noexcept { return nullptr; }
     // True when report() names a fault. Does not allocate, for callers that ask often. Any thread.
     virtual bool has_fault() const noexcept { return false; }
+    // Returns what has happened since the last call. Any thread but the loop; one at a time.
+    virtual std::vector<SinkNote> take_notes() { return {}; }
 };
 
 // A sink calls it when the first and the last byte of a frame have left; times are CLOCK_MONOTONIC ns. Called

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "io/gige/camera_clock.h"
 #include "io/gige/device/gige_device.h"
 #include "io/gige/gige_sockets.h"
 #include "io/gige/stream/gige_frame_writer.h"
@@ -56,6 +57,7 @@ Fields fields(GigeConfig& c) {
         texts("lines", c.lines,
               "additional names of the trigger input Line0, as [Line1, Line2]: entries of TriggerSource and "
               "LineSelector"),
+        section("clock", c.clock, "the device's clock and PTP"),
     };
 }
 
@@ -82,6 +84,7 @@ struct GigeSink::Implementation {
     CameraControl& camera;
     FaultBoard& faults;
     NetInterface net;
+    CameraClock clock;
     GigeRing ring;
     GigeFrameWriter writer;
     GigeSender sender;
@@ -116,8 +119,9 @@ struct GigeSink::Implementation {
           camera(context.camera),
           faults(context.faults),
           net(find_interface(c.interface)),
+          clock(c.clock, net),
           ring(slots_for(camera.settings().frame_rate_hz, payload_bytes), payload_bytes),
-          writer(ring, faults, limits.color_pattern, limits.width),
+          writer(ring, faults, clock.clock(), limits.color_pattern, limits.width),
           sender(ring, faults, context.listener, {c.rate_bytes_s, c.spread_fraction, !limits.lockstep},
                  [this](std::uint64_t acquisition) { finish(acquisition); }),
           address(net.address) {}
@@ -149,9 +153,11 @@ struct GigeSink::Implementation {
 void GigeSink::Implementation::open() {
     sockets = std::make_unique<GigeSockets>(net);
     sender.open(net.address);
+    clock.start(net, [this] { return !faults.would_strike(FaultKind::kLinkDown, 0); });
     device = std::make_unique<GigeDevice>(
         GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
-                     first_packet_bytes(config, net), 0, config.multipart, config.lines},
+                     first_packet_bytes(config, net), 0, config.multipart, config.lines, config.clock.source,
+                     config.clock.enable_ptp},
         camera, faults, effects());
     device->set_ports(sender.port(), sockets->message_port());
 }
@@ -178,6 +184,7 @@ GigeDevice::Effects GigeSink::Implementation::effects() {
         set_stream(device->stream_state());
     };
     e.change_address = [this](std::uint32_t ip, std::uint32_t, std::uint32_t) { return change_address(ip); };
+    clock.add_to(e);
     return e;
 }
 
@@ -237,6 +244,7 @@ void GigeSink::Implementation::move_to_next_sockets() {
     sender.start();
     device->set_ports(sender.port(), sockets->message_port());
     address.store(net.address);
+    clock.move(net);
 }
 
 // --- control thread
@@ -273,6 +281,7 @@ void GigeSink::Implementation::notify_device(std::int64_t now_ns) {
                             .packets_refused = c.packets_refused,
                             .events_dropped = events_dropped});
     device->tick(now_ns);
+    clock.look(device->ptp_data_set());
     sender.set_frame_rate(camera.settings().frame_rate_hz);
     controlled.store(device->controlled());
     foreign_resend_requests.store(device->foreign_resend_requests());
@@ -338,8 +347,14 @@ void GigeSink::stop() noexcept {
     my.control_thread.join();
     my.running.store(false);
     my.sender.close();
+    my.clock.stop();
     my.sockets.reset();
     my.next_sockets.reset();
+}
+
+std::vector<SinkNote> GigeSink::take_notes() {
+    Implementation& my = *implementation_;
+    return my.clock.take_notes("gige " + format_ipv4(my.address.load()));
 }
 
 SinkReport GigeSink::report() const {
@@ -373,7 +388,8 @@ SinkReport GigeSink::report() const {
             .first_dropped = first_of(
                 {my.writer.dropped().first(), my.writer.of_other_size().first(), c.frames_given_up.first()}),
             .packets_lost = c.packets_failed.count(),
-            .first_with_lost_packet = c.packets_failed.first()};
+            .first_with_lost_packet = c.packets_failed.first(),
+            .clock = my.clock.report()};
 }
 
 std::vector<ListeningPort> listening(const GigeConfig& c) {

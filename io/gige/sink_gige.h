@@ -4,8 +4,8 @@
 //
 // The loop writes each frame into a slot of a ring (gige_frame_writer.h), and the sender's thread sends it.
 // The control thread shares nothing with rendering, so it answers as soon as the machine lets it run. Leaders
-// carry mid-exposure on the device's clock: CLOCK_MONOTONIC with 1 tick = 1 ns, unless a client has reset it
-// or enabled PTP. A process may have several cameras, each on its own address.
+// carry mid-exposure on the device's clock (io/ptp/device_clock.h), with 1 tick = 1 ns. With source ptp a
+// third thread listens to PTP masters. A process may have several cameras, each on its own address.
 
 #include <cstdint>
 #include <memory>
@@ -14,6 +14,7 @@
 #include "io/contract/camera_control.h"
 #include "io/contract/frame_sink.h"
 #include "io/contract/output_shape.h"
+#include "io/ptp/device_clock_config.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
@@ -32,6 +33,7 @@ struct GigeConfig {
     bool multipart = false;            // announce it
     double spread_fraction = 0.5;      // share of a frame period over which a frame's packets may be spread
     std::vector<std::string> lines{};  // names of the trigger input besides Line0
+    DeviceClockConfig clock{};
 };
 Fields fields(GigeConfig& config);
 void validate(const GigeConfig& config);
@@ -53,6 +55,7 @@ class GigeSink : public FrameSink {
     void on_event(const CameraEvent& event) noexcept override;
     void stop() noexcept override;
     SinkReport report() const override;
+    std::vector<SinkNote> take_notes() override;
 
   private:
     struct Implementation;

@@ -28,8 +28,10 @@ enum class RandomPurpose : std::uint32_t {
     kAttitude = 33,    // jitter of a thing's attitude; pixel: sinusoid, index: thing and axis
     kCrater =
         35,  // craters of seeded ground (render/ground); frame: cell, pixel: crater, index: octave and use
-    kBoulder = 36,   // boulders, in the same way
-    kCampaign = 34,  // cases of a campaign (emulator/campaign/draw_source.h); frame: case, index: attempt
+    kBoulder = 36,       // boulders, in the same way
+    kDeviceClock = 40,   // a clock's oscillator (io/ptp/oscillator.h); frame: second
+    kDelayRequest = 41,  // waits of a PTP slave; index: how many came before
+    kCampaign = 34,      // cases of a campaign (emulator/campaign/draw_source.h); frame: case, index: attempt
 };
 
 struct RandomKey {

@@ -78,7 +78,7 @@ GigeEffects effects() {
         HILCAM_CHECK(gvcp::read_answer_header(bytes));
     };
     e.change_address = [](std::uint32_t ip, std::uint32_t, std::uint32_t) { return ip % 2 == 0; };
-    e.system_clock = [] { return GigeSystemClock{37'000'000'000, true, true}; };
+    e.system_clock = [] { return GigeSystemClock{37'000'000'000, true, true, 0}; };
     return e;
 }
 

@@ -61,8 +61,7 @@ void GigeActions::tick() {
     const std::uint64_t until = core_.device_ns(core_.now_ns + kAhead_ns);
     std::sort(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(count_));
     while (count_ > 0 && queue_[0] <= until) {
-        const std::int64_t at_ns = static_cast<std::int64_t>(queue_[0]) - core_.stream.clock_offset_ns;
-        trigger(at_ns);
+        trigger(core_.clock.monotonic_ns(static_cast<std::int64_t>(queue_[0])));
         std::copy(queue_.begin() + 1, queue_.begin() + static_cast<std::ptrdiff_t>(count_), queue_.begin());
         --count_;
     }
@@ -82,7 +81,7 @@ std::int64_t GigeActions::deadline_ns() const {
     // A time beyond the range of the clock never comes.
     if (next > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
         return std::numeric_limits<std::int64_t>::max();
-    return static_cast<std::int64_t>(next) - core_.stream.clock_offset_ns - kAhead_ns;
+    return core_.clock.monotonic_ns(static_cast<std::int64_t>(next)) - kAhead_ns;
 }
 
 void GigeActions::reset() {

@@ -88,8 +88,10 @@ void GigeBootstrap::add_capabilities() {
     // Source port register; legacy 16-bit block ids and 64-bit ones.
     r.constant(b::kStreamCapability, 1u << 31 | 1u << 30);
     r.constant(b::kMessageCapability, 1u << 31);  // source port register
-    r.constant(b::kGvcpCapability,
-               kGvcpCan | (core_.identity.link_speed_mbit_s ? b::gvcp_can::kLinkSpeed : 0));
+    std::uint32_t can = kGvcpCan;
+    if (core_.identity.link_speed_mbit_s) can |= b::gvcp_can::kLinkSpeed;
+    if (core_.identity.clock_source == ClockSource::kFree) can &= ~b::gvcp_can::kPtp;
+    r.constant(b::kGvcpCapability, can);
     r.constant(b::kDiscoveryDelay, 0);
     r.number(
         b::kGvcpConfig, [this] { return core_.gvcp_config; },
@@ -99,6 +101,8 @@ void GigeBootstrap::add_capabilities() {
 
 Status GigeBootstrap::write_gvcp_config(std::uint64_t value) {
     if (value & ~std::uint64_t{kGvcpConfigBits}) return Status::kInvalidParameter;
+    if (value & b::gvcp_config::kPtpEnable && core_.identity.clock_source == ClockSource::kFree)
+        return Status::kInvalidParameter;
     const std::uint32_t before = core_.gvcp_config;
     core_.gvcp_config = static_cast<std::uint32_t>(value);
     if (config_changed_) config_changed_(before);
@@ -119,5 +123,9 @@ void GigeBootstrap::add_description(std::span<const std::uint8_t> xml, std::span
 }
 
 void GigeBootstrap::reset() { write_gvcp_config(0); }
+
+void GigeBootstrap::power_up() {
+    if (core_.identity.ptp_at_power_up) write_gvcp_config(b::gvcp_config::kPtpEnable);
+}
 
 }  // namespace hilcam

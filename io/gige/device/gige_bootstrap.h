@@ -14,6 +14,8 @@ class GigeBootstrap {
     // sizes.
     void add_description(std::span<const std::uint8_t> xml, std::span<const std::uint8_t> zip);
     void reset();
+    // Switches on what is on after power-up.
+    void power_up();
 
   private:
     void add_identity();

@@ -13,6 +13,9 @@
 #include "io/gige/device/gige_register_file.h"
 #include "io/gige/device/gvcp.h"
 #include "io/gige/stream/gige_stream.h"
+#include "io/ptp/device_clock.h"
+#include "io/ptp/device_clock_config.h"
+#include "io/ptp/ptp_data_set.h"
 
 namespace hilcam {
 
@@ -24,6 +27,8 @@ struct GigeIdentity {
     std::uint32_t link_speed_mbit_s = 0;  // 0: unknown
     bool multipart = false;  // announce multipart payloads, for clients that test the announcement
     std::vector<std::string> more_lines{};  // names of the trigger input besides Line0
+    ClockSource clock_source = ClockSource::kTai;
+    bool ptp_at_power_up = false;  // PtpEnable is on after power-up
 };
 
 // Counters of the stream side, shown as features.
@@ -43,6 +48,7 @@ struct GigeSystemClock {
     std::int64_t tai_minus_monotonic_ns = 0;
     bool synchronised = false;      // by a PTP or NTP daemon (adjtimex: no STA_UNSYNC)
     bool tai_offset_known = false;  // CLOCK_TAI differs from UTC
+    std::int64_t offset_ns = 0;     // from the daemon's master, as far as the kernel has not taken it out
 };
 
 // The effects of control messages. GigeDevice calls them on its thread, inside handle(), tick() and
@@ -67,6 +73,13 @@ struct GigeEffects {
     std::function<bool(std::uint32_t ip, std::uint32_t mask, std::uint32_t gateway)> change_address{};
     // Empty: the machine's own clocks (gige_clock.h).
     std::function<GigeSystemClock()> system_clock{};
+    // The device's clock, which others may read and steer; null: one of its own. It outlives the device.
+    DeviceClock* clock = nullptr;
+    // Returns what the clock shows after a reset of the device; empty: CLOCK_MONOTONIC.
+    std::function<std::int64_t()> power_up_ns{};
+    // Switches the PTP slave on and off, and reads its data set; only with source ptp.
+    std::function<void(bool)> enable_ptp{};
+    std::function<PtpDataSet()> ptp_data_set{};
 };
 
 enum class AcquisitionMode : std::uint32_t { kContinuous, kSingleFrame, kMultiFrame };
@@ -98,7 +111,8 @@ struct GigeCore {
           camera(the_camera),
           faults(the_faults),
           effects(std::move(e)),
-          limits(the_camera.limits()) {}
+          limits(the_camera.limits()),
+          clock(effects.clock ? *effects.clock : own_clock) {}
     GigeCore(const GigeCore&) = delete;
     GigeCore& operator=(const GigeCore&) = delete;
 
@@ -107,6 +121,8 @@ struct GigeCore {
     FaultBoard& faults;
     GigeEffects effects;
     const CameraLimits limits;
+    DeviceClock own_clock;  // used where the effects give none
+    DeviceClock& clock;
     GigeRegisterFile registers;
     GigeSettings settings;
     GigeStreamState stream;
@@ -124,7 +140,7 @@ struct GigeCore {
     bool locked() const { return stream.acquiring || host_locked; }
     // Returns the device's time at an instant of CLOCK_MONOTONIC.
     std::uint64_t device_ns(std::int64_t monotonic_ns) const {
-        return static_cast<std::uint64_t>(monotonic_ns + stream.clock_offset_ns);
+        return static_cast<std::uint64_t>(clock.device_ns(monotonic_ns));
     }
     gvcp::Status change(const SettingsChange& wanted) {
         return camera.change(wanted) ? gvcp::kSuccess : gvcp::kInvalidParameter;

@@ -58,6 +58,7 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
     add_device_registers();
     acquisition.on_end([this] { trigger.rearm(); });
     core.publish_stream();
+    bootstrap.power_up();
 }
 
 void GigeDevice::Parts::add_device_registers() {
@@ -107,6 +108,7 @@ void GigeDevice::acquisition_finished(std::uint32_t epoch) { parts_->acquisition
 void GigeDevice::set_statistics(const GigeStreamStatistics& s) { parts_->core.statistics = s; }
 bool GigeDevice::controlled() const { return parts_->access.controlled(); }
 std::uint64_t GigeDevice::foreign_resend_requests() const { return parts_->foreign_resend_requests; }
+PtpDataSet GigeDevice::ptp_data_set() const { return parts_->clock.data_set(); }
 const GigeStreamState& GigeDevice::stream_state() const { return parts_->core.stream; }
 std::string GigeDevice::xml() const { return parts_->xml; }
 
@@ -165,6 +167,7 @@ void GigeDevice::reset() {
     my.user_sets.reset();
     my.messages.reset();
     my.answers.forget();
+    my.bootstrap.power_up();
     if (my.core.effects.reset) my.core.effects.reset();
 }
 

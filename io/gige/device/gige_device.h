@@ -63,6 +63,8 @@ class GigeDevice {
     // are ignored.
     std::uint64_t foreign_resend_requests() const;
     const GigeStreamState& stream_state() const;
+    // Returns what clients could latch now.
+    PtpDataSet ptp_data_set() const;
     std::string xml() const;
 
   private:

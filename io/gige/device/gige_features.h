@@ -164,5 +164,6 @@ void add_chunk_features(FeatureTable& table);
 void add_event_features(FeatureTable& table);
 void add_transport_features(FeatureTable& table);
 void add_fault_features(FeatureTable& table);
+void add_ptp_features(FeatureTable& table);
 
 }  // namespace hilcam

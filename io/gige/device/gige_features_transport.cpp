@@ -17,12 +17,7 @@ Feature ip(const char* name, std::uint32_t address, const char* meaning) {
     return integer(name, address, meaning).between(0, kMax32).as("IPV4Address");
 }
 
-std::vector<EnumEntry> ptp_states() {
-    return {{"Initializing", 1}, {"Faulty", 2},  {"Disabled", 3},     {"Listening", 4}, {"PreMaster", 5},
-            {"Master", 6},       {"Passive", 7}, {"Uncalibrated", 8}, {"Slave", 9}};
-}
-
-void add_actions_and_time(FeatureTable& t) {
+void add_actions(FeatureTable& t) {
     t.add("ActionControl",
           {
               integer("ActionDeviceKey", b::kActionDeviceKey, "Must be that of an ACTION command")
@@ -40,15 +35,6 @@ void add_actions_and_time(FeatureTable& t) {
                   .between(0, kMax32)
                   .as("HexNumber"),
               boolean("ActionUnconditionalMode", b::kGvcpConfig, "Actions without a controller, too").bit(3),
-          });
-    t.add("PtpControl",
-          {
-              boolean("PtpEnable", b::kGvcpConfig, "The device's clock is the machine's CLOCK_TAI").bit(19),
-              enumeration("PtpStatus", b::kPtpStatus, ptp_states(),
-                          "What the machine's kernel says of its clock: Listening: not synchronised; "
-                          "Uncalibrated: no offset of TAI to UTC; Slave: both are there")
-                  .bits(3, 0)
-                  .read_only(),
           });
 }
 
@@ -121,10 +107,6 @@ void add_gvcp(FeatureTable& t) {
             boolean("GevGVCPExtendedStatusCodesVersion1_1", b::kGvcpConfig, "Status codes of GEV 1.1").bit(2),
             boolean("GevGVCPExtendedStatusCodesVersion2_0", b::kGvcpConfig, "Status codes of GEV 2.0")
                 .bit(18),
-            boolean("GevIEEE1588", b::kGvcpConfig, "As PtpEnable").bit(19),
-            enumeration("GevIEEE1588Status", b::kPtpStatus, ptp_states(), "As PtpStatus")
-                .bits(3, 0)
-                .read_only(),
             integer64("GevTimestampTickFrequency", b::kTickFrequency, "Ticks per second")
                 .between(1e9, 1e9)
                 .unit("Hz")
@@ -165,7 +147,7 @@ void add_channels(FeatureTable& t) {
             integer("GevSCSP", b::kStreamSourcePort, "Where the stream comes from")
                 .between(0, 65535)
                 .read_only(),
-            integer("GevSCPSPacketSize", b::kPacketSize, "IP, UDP and GVSP headers included")
+            integer("GevSCPSPacketSize", b::kPacketSize, "IP, UDP, GVSP headers included")
                 .between(GigeTransport::kMinPacketBytes, GigeTransport::kMaxPacketBytes)
                 .every(GigeTransport::kPacketStep)
                 .unit("B")
@@ -225,7 +207,8 @@ void add_event_features(FeatureTable& t) {
 }
 
 void add_transport_features(FeatureTable& t) {
-    add_actions_and_time(t);
+    add_actions(t);
+    add_ptp_features(t);
     add_gvcp(t);
     add_channels(t);
 }

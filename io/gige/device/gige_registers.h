@@ -90,6 +90,11 @@ inline constexpr std::uint32_t kActionSelector = 0xA360, kInterfaceSelector = 0x
                                kStreamSelector = 0xA368;
 // Statistics: 64-bit, in the order of GigeStreamStatistics.
 inline constexpr std::uint32_t kStatistics = 0xA400;
+// PTP: what PtpDataSetLatch latches. Those from kPtpOffset_ns on have 8 bytes.
+inline constexpr std::uint32_t kPtpDataSetLatch = 0xA700, kPtpLatchedStatus = 0xA704,
+                               kPtpServoStatus = 0xA708, kPtpTimeScale = 0xA70C, kPtpUtcOffset_s = 0xA710,
+                               kPtpSteps = 0xA714, kPtpOffset_ns = 0xA718, kPtpDelay_ns = 0xA720,
+                               kPtpClockId = 0xA728, kPtpParentId = 0xA730, kPtpGrandmasterId = 0xA738;
 // Faults.
 inline constexpr std::uint32_t kFaultSelector = 0xA500, kFaultEnable = 0xA504, kFaultClear = 0xA508,
                                kFaultClearAll = 0xA50C, kFaultActive = 0xA510;

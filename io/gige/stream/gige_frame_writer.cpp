@@ -13,9 +13,11 @@ bool fits(const DnImage& frame, const FrameRecord& record, const GigeStreamState
 
 }  // namespace
 
-GigeFrameWriter::GigeFrameWriter(GigeRing& ring, FaultBoard& faults, std::string pattern, int width)
+GigeFrameWriter::GigeFrameWriter(GigeRing& ring, FaultBoard& faults, const DeviceClock& clock,
+                                 std::string pattern, int width)
     : ring_(ring),
       faults_(faults),
+      device_clock_(clock),
       pattern_(std::move(pattern)),
       scratch_(3 * static_cast<std::size_t>(width) + 8) {}
 
@@ -74,8 +76,8 @@ GigeFrameWriter::Outcome GigeFrameWriter::write(const DnImage& frame, const Fram
         f.timestamp_ns = before_->frame.timestamp_ns;
         std::copy(before_->frame.payload.begin(), before_->frame.payload.end(), slot->bytes.begin());
     } else {
-        f.timestamp_ns = clock_.stamp(faults_, record.id, record.exposure_mid_monotonic_ns, s.clock_offset_ns,
-                                      slot->record.faults);
+        f.timestamp_ns = stamps_.stamp(faults_, record.id, record.exposure_mid_monotonic_ns,
+                                       device_clock_.line(), slot->record.faults);
         write_gige_payload(frame, slot->record, s, pattern_, f.timestamp_ns, scratch_,
                            std::span(slot->bytes).first(f.payload.size()));
     }

@@ -11,13 +11,16 @@
 #include "io/gige/stream/gige_blocks.h"
 #include "io/gige/stream/gige_ring.h"
 #include "io/gige/stream/stream_faults.h"
+#include "io/ptp/device_clock.h"
 
 namespace hilcam {
 
 class GigeFrameWriter {
   public:
-    // pattern: of the colour filter array; empty: monochrome. width: of the widest frame.
-    GigeFrameWriter(GigeRing& ring, FaultBoard& faults, std::string pattern, int width);
+    // pattern: of the colour filter array; empty: monochrome. width: of the widest frame. clock: gives the
+    // time stamps.
+    GigeFrameWriter(GigeRing& ring, FaultBoard& faults, const DeviceClock& clock, std::string pattern,
+                    int width);
 
     struct Outcome {
         bool written = false;   // the sender has something to do
@@ -41,12 +44,13 @@ class GigeFrameWriter {
   private:
     GigeRing& ring_;
     FaultBoard& faults_;
+    const DeviceClock& device_clock_;
     std::string pattern_;
     std::vector<std::uint16_t> scratch_;
     std::uint64_t acquisition_ = 0;
     std::uint32_t frames_ = 0;  // frames of this acquisition
     BlockIds ids_;
-    StampClock clock_;
+    StampClock stamps_;
     const GigeSlot* before_ = nullptr;  // the previous frame of this acquisition
     LossCount dropped_, of_other_size_;
     std::atomic<std::uint64_t> dropped_by_faults_{0}, unwanted_{0};

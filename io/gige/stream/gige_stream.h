@@ -72,9 +72,6 @@ struct GigeStreamState {
     bool extended_ids = false;         // 64-bit block ids, 20-byte headers; on the client's request
     bool multipart = false;            // every block has parts; implies 64-bit ids
     bool resend_to_requester = false;  // SCCFG b3: else to the destination
-    // Added to CLOCK_MONOTONIC to get the device's clock, in which all time stamps are sent. 0, unless a
-    // client has reset the clock or enabled PTP (then the sum is CLOCK_TAI).
-    std::int64_t clock_offset_ns = 0;
     std::uint32_t packet_delay_ns = 0;
     double throughput_limit_bytes_s = 0;  // 0: the configuration's
     WireFormat format = WireFormat::kMono8;

@@ -45,12 +45,12 @@ std::uint32_t PacketOrder::next(FaultBoard& faults, std::uint64_t frame) {
 }
 
 std::uint64_t StampClock::stamp(FaultBoard& faults, std::uint64_t frame, std::int64_t monotonic_ns,
-                                std::int64_t clock_offset_ns, std::uint64_t& faults_seen) {
+                                const ClockLine& clock, std::uint64_t& faults_seen) {
     if (faults.strikes(FaultKind::kTimestampFreeze, frame) && last_ != 0) {
         faults_seen |= bit_of(FaultKind::kTimestampFreeze);
         return last_;
     }
-    std::int64_t ns = monotonic_ns + clock_offset_ns;
+    std::int64_t ns = clock.device_at(monotonic_ns);
     if (const auto ppm = faults.strikes(FaultKind::kTimestampDrift, frame)) {
         faults_seen |= bit_of(FaultKind::kTimestampDrift);
         const std::int64_t since_ns = faults.since_monotonic_ns(FaultKind::kTimestampDrift);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "io/contract/fault.h"
+#include "io/ptp/clock_line.h"
 
 namespace hilcam {
 
@@ -37,9 +38,10 @@ class PacketOrder {
 // The device's clock, true and as faults make it. One thread.
 class StampClock {
   public:
-    // Returns the time stamp. faults_seen: gets the bits of the faults that struck.
+    // Returns the time stamp of an instant, which `clock` gives without faults. faults_seen: gets the bits of
+    // the faults that struck.
     std::uint64_t stamp(FaultBoard& faults, std::uint64_t frame, std::int64_t monotonic_ns,
-                        std::int64_t clock_offset_ns, std::uint64_t& faults_seen);
+                        const ClockLine& clock, std::uint64_t& faults_seen);
 
   private:
     std::uint64_t last_ = 0;

@@ -33,10 +33,10 @@ def die_with_parent():
 
 
 class Emulator:
-    """`hilcam run` with one GigE Vision camera; ends with the block or by stop(), which gives the report."""
+    """`hilcam run` with one GigE Vision camera; ends with the block or by stop(), which gives the report. prefix: what starts it."""
 
     def __init__(self, hilcam, address, folder, *sets, scenario=SCENARIO, port=None, serial=None, arguments=(),
-                 namespace=None, dialect=HILCAM):
+                 namespace=None, dialect=HILCAM, prefix=()):
         self.hilcam, self.address, self.folder = str(hilcam), address, pathlib.Path(folder)
         self.dialect, self.pings = dialect, 0
         self.port = free_port() if port is None else port
@@ -45,7 +45,7 @@ class Emulator:
         self.namespace = ["ip", "netns", "exec", namespace] if namespace else []
         self.sets = [f"outputs.gige.interface={address}", f"outputs.gige.serial={serial or 'T%d' % self.port}",
                      f"commands.udp.port={self.port}", *sets]
-        command = [*self.namespace, self.hilcam, "run", str(scenario)]
+        command = [*self.namespace, *prefix, self.hilcam, "run", str(scenario)]
         for value in self.sets:
             command += ["--set", value]
         with self.log_file.open("w") as log:

@@ -79,10 +79,18 @@ struct GigeBench {
     GigeSystemClock system_clock;
     std::int64_t now_ns = 1'000'000'000;
     std::uint16_t id = 1;
+
+    // With a source other than tai: the device's clock, and what its PTP slave says and is told.
+    ClockSource source;
+    DeviceClock clock{{.rate = 100e-6}, {1'000'000'000, 0, 0}};
+    PtpDataSet ptp_set;
+    std::vector<bool> ptp_orders;
     GigeDevice device;
 
-    explicit GigeBench(const CameraLimits* limits = nullptr, std::vector<std::string> lines = {})
+    explicit GigeBench(const CameraLimits* limits = nullptr, std::vector<std::string> lines = {},
+                       ClockSource clock_source = ClockSource::kTai, bool ptp_at_power_up = false)
         : camera(limits ? with(*limits) : PlainCamera()),
+          source(clock_source),
           device({.model = "cam",
                   .serial = "S1",
                   .user_name = {},
@@ -90,7 +98,9 @@ struct GigeBench {
                   .mask = 0xFF000000,
                   .mac = 0x020000000001,
                   .multipart = true,
-                  .more_lines = std::move(lines)},
+                  .more_lines = std::move(lines),
+                  .clock_source = clock_source,
+                  .ptp_at_power_up = ptp_at_power_up},
                  camera, faults, effects()) {
         device.tick(now_ns);
     }
@@ -115,6 +125,11 @@ struct GigeBench {
             return has_address;
         };
         e.system_clock = [this] { return system_clock; };
+        if (source == ClockSource::kTai) return e;
+        e.clock = &clock;
+        e.power_up_ns = [] { return std::int64_t{0}; };
+        e.enable_ptp = [this](bool enabled) { ptp_orders.push_back(enabled); };
+        e.ptp_data_set = [this] { return ptp_set; };
         return e;
     }
 

@@ -358,32 +358,6 @@ TEST(GigeSettings, AResetGoesBackToTheDefaultUserSet) {
     EXPECT_EQ(s.packet_bytes, 1500u);
 }
 
-TEST(GigeSettings, TheClockIsMonotonicUntilPtpIsEnabled) {
-    GigeBench b;
-    b.take_control();
-    b.write(bootstrap::kTimestampControl, 2);
-    EXPECT_EQ(b.read64(bootstrap::kTimestamp), static_cast<std::uint64_t>(b.now_ns));
-    b.write(bootstrap::kTimestampControl, 1);
-    b.wait_ms(5);
-    b.write(bootstrap::kTimestampControl, 2);
-    EXPECT_EQ(b.read64(bootstrap::kTimestamp), 5'000'000u);
-    EXPECT_EQ(b.read(bootstrap::kPtpStatus), 3u);  // Disabled
-    b.system_clock = {1'700'000'000'000'000'000, false, false};
-    b.write(bootstrap::kGvcpConfig, bootstrap::gvcp_config::kPtpEnable);
-    EXPECT_EQ(b.device.stream_state().clock_offset_ns, 1'700'000'000'000'000'000);
-    EXPECT_EQ(b.read(bootstrap::kPtpStatus), 4u);  // Listening: nothing keeps the clock
-    b.system_clock.synchronised = true;
-    EXPECT_EQ(b.read(bootstrap::kPtpStatus), 8u);  // Uncalibrated: UTC, not TAI
-    b.system_clock.tai_offset_known = true;
-    EXPECT_EQ(b.read(bootstrap::kPtpStatus), 9u);                              // Slave
-    EXPECT_EQ(b.write(bootstrap::kTimestampControl, 1), gvcp::kAccessDenied);  // TAI is not ours to reset
-    b.write(bootstrap::kTimestampControl, 2);
-    EXPECT_EQ(b.read64(bootstrap::kTimestamp),
-              static_cast<std::uint64_t>(1'700'000'000'000'000'000 + b.now_ns));
-    b.write(bootstrap::kGvcpConfig, 0);
-    EXPECT_EQ(b.device.stream_state().clock_offset_ns, 0);
-}
-
 TEST(GigeSettings, StatisticsAreReadable) {
     GigeBench b;
     b.device.set_statistics({1, 2, 3, 4, 5, 6, 7, 8});

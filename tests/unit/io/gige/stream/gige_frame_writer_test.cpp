@@ -11,7 +11,8 @@ class FrameWriter : public testing::Test {
   protected:
     GigeRing ring_{GigeRing::kMinSlots, max_payload_bytes(16, 8, "", false)};
     FaultBoard faults_;
-    GigeFrameWriter writer_{ring_, faults_, "", 16};
+    DeviceClock clock_;
+    GigeFrameWriter writer_{ring_, faults_, clock_, "", 16};
     DnImage image_{16, 8};
     FrameRecord record_;
     GigeStreamNow now_;

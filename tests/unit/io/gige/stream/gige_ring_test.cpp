@@ -278,22 +278,22 @@ TEST(StreamFaults, TimeStampsStepDriftAndFreeze) {
     StampClock clock;
     std::uint64_t seen = 0;
     constexpr std::int64_t kNow = 5'000'000'000'000;
-    EXPECT_EQ(clock.stamp(faults, 1, kNow, 37, seen), std::uint64_t{kNow + 37});
+    EXPECT_EQ(clock.stamp(faults, 1, kNow, {0, 37, 0}, seen), std::uint64_t{kNow + 37});
     EXPECT_EQ(seen, 0u);
     faults.order({.kind = FaultKind::kTimestampStep, .rate = 1, .value = -2});
-    EXPECT_EQ(clock.stamp(faults, 2, kNow, 0, seen), std::uint64_t{kNow - 2'000'000});
+    EXPECT_EQ(clock.stamp(faults, 2, kNow, {}, seen), std::uint64_t{kNow - 2'000'000});
     EXPECT_EQ(seen, bit_of(FaultKind::kTimestampStep));
     faults.clear_all();
     faults.order({.kind = FaultKind::kTimestampDrift, .rate = 1, .value = 100});
     const std::int64_t began = faults.since_monotonic_ns(FaultKind::kTimestampDrift);
-    EXPECT_EQ(clock.stamp(faults, 3, began + 1'000'000'000, 0, seen),
+    EXPECT_EQ(clock.stamp(faults, 3, began + 1'000'000'000, {}, seen),
               static_cast<std::uint64_t>(began + 1'000'100'000));
     faults.clear_all();
     faults.order({.kind = FaultKind::kTimestampFreeze, .rate = 1});
-    EXPECT_EQ(clock.stamp(faults, 4, began + 2'000'000'000, 0, seen),
+    EXPECT_EQ(clock.stamp(faults, 4, began + 2'000'000'000, {}, seen),
               static_cast<std::uint64_t>(began + 1'000'100'000));
     faults.clear_all();
-    EXPECT_EQ(clock.stamp(faults, 5, kNow, 0, seen), std::uint64_t{kNow});
+    EXPECT_EQ(clock.stamp(faults, 5, kNow, {}, seen), std::uint64_t{kNow});
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ class Sender : public testing::TestWithParam<bool> {
   protected:
     FaultBoard faults_{3};
     GigeRing ring_{GigeRing::kMinSlots, max_payload_bytes(kSentWidth, kSentHeight, "", false)};
-    GigeFrameWriter writer_{ring_, faults_, "", kSentWidth};
+    DeviceClock clock_;
+    GigeFrameWriter writer_{ring_, faults_, clock_, "", kSentWidth};
     std::atomic<std::uint64_t> finished_{0};
     GigeSender sender_{ring_, faults_, nullptr, {}, [this](std::uint64_t a) { finished_ = a; }};
     Fd client_ = open_udp(kHere, 0);
