@@ -80,6 +80,7 @@ void validate(const GigeConfig& c) {
 struct GigeSink::Implementation {
     GigeConfig config;
     CameraControl& camera;
+    CameraLines* lines;
     FaultBoard& faults;
     NetInterface net;
     GigeRing ring;
@@ -111,6 +112,7 @@ struct GigeSink::Implementation {
                    std::size_t payload_bytes)
         : config(c),
           camera(context.camera),
+          lines(context.lines),
           faults(context.faults),
           net(find_interface(c.interface)),
           ring(slots_for(camera.settings().frame_rate_hz, payload_bytes), payload_bytes),
@@ -145,7 +147,7 @@ void GigeSink::Implementation::open() {
     device = std::make_unique<GigeDevice>(
         GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
                      first_packet_bytes(config, net), 0, config.multipart, config.lines},
-        camera, faults, effects());
+        camera, faults, effects(), lines);
     device->set_ports(sender.port(), sockets->message_port());
 }
 

@@ -13,6 +13,7 @@
 #include "io/gige/device/gige_register_file.h"
 #include "io/gige/device/gvcp.h"
 #include "io/gige/stream/gige_stream.h"
+#include "io/lines/camera_lines.h"
 
 namespace hilcam {
 
@@ -93,9 +94,11 @@ struct GigeSettings {
 };
 
 struct GigeCore {
-    GigeCore(const GigeIdentity& id, CameraControl& the_camera, FaultBoard& the_faults, GigeEffects e)
+    GigeCore(const GigeIdentity& id, CameraControl& the_camera, CameraLines& the_lines,
+             FaultBoard& the_faults, GigeEffects e)
         : identity(id),
           camera(the_camera),
+          lines(the_lines),
           faults(the_faults),
           effects(std::move(e)),
           limits(the_camera.limits()) {}
@@ -104,6 +107,7 @@ struct GigeCore {
 
     GigeIdentity identity;
     CameraControl& camera;
+    CameraLines& lines;
     FaultBoard& faults;
     GigeEffects effects;
     const CameraLimits limits;

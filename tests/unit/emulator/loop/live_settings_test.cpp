@@ -21,6 +21,46 @@ TEST(LiveSettings, RefusesWhatIsOutsideAndTheLoopSeesTheRest) {
     EXPECT_EQ(settings.read_in_loop().gain_db, 6);
 }
 
+TEST(LiveSettings, AWidthNeedsAPulseAndAnExposureThatIsNotTheCameras) {
+    LiveSettings settings(CameraModel{});
+    ASSERT_TRUE(settings.change({.exposure_mode = ExposureMode::kTriggerWidth}));
+    EXPECT_FALSE(settings.change({.automatic_exposure = true}));
+    EXPECT_FALSE(settings.change({.trigger_activation = TriggerActivation::kAnyEdge}));
+    EXPECT_TRUE(settings.change({.trigger_activation = TriggerActivation::kFallingEdge}));
+    EXPECT_FALSE(settings.change({.trigger_divider = 0}));
+    EXPECT_FALSE(settings.change({.trigger_divider = 65536}));
+    LiveSettings lockstep(CameraModel{}, {.lockstep = true});
+    EXPECT_FALSE(lockstep.change({.exposure_mode = ExposureMode::kTriggerWidth}));
+    CameraModel stepping;
+    stepping.sequence.resize(2);
+    EXPECT_FALSE(LiveSettings(stepping).change({.exposure_mode = ExposureMode::kTriggerWidth}));
+}
+
+// Highest rate 50 Hz, exposure 30 ms: with ReadOut the camera is ready 30 ms after a trigger, with Off 50 ms.
+TEST(LiveSettings, WithoutOverlapATriggerWaitsForTheReadout) {
+    for (const TriggerOverlap overlap : {TriggerOverlap::kReadOut, TriggerOverlap::kOff}) {
+        CameraModel camera;
+        camera.frame_rate_range_hz = {1, 50};
+        camera.exposure_s = 0.03;
+        LiveSettings settings(camera, {.triggered = true});
+        EXPECT_EQ(settings.trigger_ready_ns(), 0);
+        ASSERT_TRUE(settings.change({.trigger_overlap = overlap}));
+        TriggerOrder order;
+        order.source = TriggerSource::kLine0;
+        order.at_monotonic_ns = monotonic_ns();
+        ASSERT_EQ(settings.trigger(order), TriggerResult::kTaken);
+        const std::int64_t length_ns = overlap == TriggerOverlap::kReadOut ? 30'000'000 : 50'000'000;
+        EXPECT_EQ(settings.trigger_ready_ns(), order.at_monotonic_ns + length_ns);
+        TriggerOrder next = order;
+        next.at_monotonic_ns += length_ns - 1;
+        EXPECT_EQ(settings.trigger(next), TriggerResult::kMissed);
+        next.at_monotonic_ns += 1;
+        EXPECT_EQ(settings.trigger(next), TriggerResult::kTaken);
+        settings.change({.triggered = false});
+        EXPECT_EQ(settings.trigger_ready_ns(), CameraControl::kNeverReady_ns);
+    }
+}
+
 TEST(SettingsHistory, EachHoldFromTheirInstantOnAndTheOldestBeforeAll) {
     SettingsHistory history(CameraSettings{.gain_db = -1});
     EXPECT_EQ(history.at(0).gain_db, -1);
