@@ -19,6 +19,7 @@
 #include "emulator/scenario/scene_loader.h"
 #include "io/contract/command_receiver.h"
 #include "io/contract/frame_fates.h"
+#include "io/lines/camera_lines.h"
 
 namespace hilcam {
 
@@ -108,14 +109,16 @@ class CameraStation {
     std::vector<std::string> new_faults();
     // Adds an output that other stations also feed (telemetry). Before prepare().
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
-    SinkContext sink_context() { return {settings_, faults_, &delivery_, &fates_, &light_parts_}; }
+    SinkContext sink_context() { return {settings_, faults_, &delivery_, &fates_, &light_parts_, &lines_}; }
+    CameraLines& lines() { return lines_; }
 
   private:
     void make_sinks();
+    void connect_lines();
     void find_level_costs();
     void serve_light_parts();
     GovernorSettings governor() const;
-    void record_changes(Recorder& recorder);
+    void tell_of_changes(Recorder* recorder);
     std::string status() const;
 
     static constexpr std::size_t kMaxLogged = 100'000;
@@ -124,6 +127,8 @@ class CameraStation {
     std::size_t number_;
     RunLimits limits_;
     LiveSettings settings_;
+    CameraLines lines_;
+    LineWatch line_watch_{lines_};
     FaultBoard faults_;
     DeliveryMeter delivery_;
     FrameFates fates_;
