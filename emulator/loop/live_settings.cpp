@@ -138,8 +138,10 @@ bool LiveSettings::change(const SettingsChange& c, std::int64_t from_camera_ns) 
     if (settings_.automatic_exposure && !wanted.automatic_exposure && !c.exposure_s)
         wanted.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
     settings_ = wanted;
-    if (!limits_.lockstep && (!wanted.running || !wanted.triggered))
+    if (!limits_.lockstep && (!wanted.running || !wanted.triggered)) {
         dropped_below_.store(triggers_in_.load(std::memory_order_relaxed), std::memory_order_release);
+        if (exposes_) exposes_(0, 0);
+    }
     history_.add(settings_, from_camera_ns);
     latest_.write(history_);
     if (changed_) changed_(c);
@@ -184,7 +186,16 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     triggers_[in % kMaxWaiting] = order;
     triggers_in_.store(in + 1, std::memory_order_release);
     wake();
+    if (exposes_) tell_exposure(order, monotonic_ns());
     return TriggerResult::kTaken;
+}
+
+// The exposure of a pulse is over, and that of a trigger in simulated time depends on the clock.
+void LiveSettings::tell_exposure(const WaitingOrder& order, std::int64_t now_ns) const {
+    if (limits_.lockstep || order.frames != 1 || order.exposure_s > 0 || order.at_simulated.ns != 0) return;
+    const std::int64_t begin_ns = camera_time_of(order, now_ns) + order.delay_ns;
+    const std::int64_t end_ns = begin_ns + to_ns(timing_.end_s(exposure_now_s()));
+    exposes_(clock_->monotonic_of_camera(begin_ns), clock_->monotonic_of_camera(end_ns));
 }
 
 // Returns the exposure for a pulse's width.

@@ -64,6 +64,14 @@ class LiveSettings : public CameraControl {
         triggered_ = std::move(tell);
     }
 
+    // Sets a function that is called, with a lock held, when a trigger for a single frame is taken: with its
+    // exposure on CLOCK_MONOTONIC as far as it is known then, before the loop gets to it. begin_ns = 0:
+    // exposures that were reported and have not begun will not. It must not call back. Set before the threads
+    // start.
+    void on_exposure(std::function<void(std::int64_t begin_ns, std::int64_t end_ns)> tell) {
+        exposes_ = std::move(tell);
+    }
+
     // For lockstep, one caller at a time: call order_in_lockstep(), then wait_for_order(). That returns when
     // the loop has sampled the world for the order's last frame or has ended, and at once when the order was
     // refused. False when it takes longer than `patience_s`.
@@ -137,6 +145,7 @@ class LiveSettings : public CameraControl {
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
     TriggerResult take_order(const TriggerOrder& asked);
     double exposure_of(const TriggerOrder& order) const;
+    void tell_exposure(const WaitingOrder& order, std::int64_t now_ns) const;
     std::int64_t camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const;
     std::int64_t ready_ns(std::uint64_t orders, std::int64_t now_ns) const;
 
@@ -166,6 +175,7 @@ class LiveSettings : public CameraControl {
     std::function<void(std::int64_t)> missed_;
     std::function<void(const SettingsChange&)> changed_;
     std::function<void(const TriggerOrder&, TriggerResult)> triggered_;
+    std::function<void(std::int64_t, std::int64_t)> exposes_;
 };
 
 }  // namespace hilcam

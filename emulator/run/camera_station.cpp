@@ -70,6 +70,12 @@ void CameraStation::connect_lines() {
         for (const auto& sink : sinks_) sink->on_event({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
         line_watch_.on_event({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
     });
+    settings_.on_exposure([this](std::int64_t begin_ns, std::int64_t end_ns) {
+        if (begin_ns == 0)
+            lines_.drop_exposures();
+        else
+            lines_.post({LineEvent::kExposureStart, begin_ns, end_ns, true});
+    });
     lines_.on_edge([this](const LineEdge& edge) {
         using Kind = CameraEvent::Kind;
         if (edge.line != 0) return;

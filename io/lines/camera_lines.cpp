@@ -8,13 +8,15 @@ namespace hilcam {
 
 CameraLines::CameraLines(CameraControl& camera, const LinePlan& plan)
     : camera_(camera), plan_(plan), trigger_(camera, [this](const TriggerInput::Exposure& exposure) {
-          begin_exposure(exposure.begin_ns, exposure.end_ns == 0 ? kNever_ns : exposure.end_ns);
+          const Span span{exposure.begin_ns, exposure.end_ns == 0 ? kNever_ns : exposure.end_ns};
+          if (!know_end(span)) expect_exposure(span);
           if (exposure.lost) frame_active_ = false;
       }) {
     settings_.source = plan.source;
     settings_.inverted = plan.inverted;
     to_come_.reserve(kMaxEdgesToCome);
     out_.reserve(kMaxOut);
+    exposures_to_come_.reserve(kMaxEdgesToCome);
     for (std::size_t i = 0; i < kLines; ++i) wire_[i] = level_[i] = plan.is_output[i] && plan.inverted[i];
     for (std::size_t i = 0; i < kLines; ++i)
         if (plan.is_there[i] && !plan.is_output[i]) level_[i] = plan.inverted[i];
@@ -75,26 +77,33 @@ void CameraLines::post(const Happening& happening) noexcept {
     if (wake_) wake_();
 }
 
-// The exposures of pulses are known from their edges, before the loop has them.
+// The exposures of pulses are known from their edges, before the loop has them, and those of triggers mostly
+// as well.
 void CameraLines::take(const Happening& h) {
+    if (h.event == LineEvent::kOff) return exposures_to_come_.clear();
     if (h.event == LineEvent::kFrameEnd) frame_active_ = false;
-    if (h.event != LineEvent::kExposureStart)
-        fire(h.event, true, h.at_ns);
-    else if (!exposes_by_width(camera_.settings()))
-        begin_exposure(h.at_ns, h.end_ns);
+    if (h.event != LineEvent::kExposureStart) return fire(h.event, true, h.at_ns);
+    if (exposes_by_width(camera_.settings())) return;
+    const Span exposure{h.at_ns, h.end_ns};
+    if (h.is_to_come)
+        announced_[announced_count_++ % announced_.size()] = h.at_ns;
+    else if (std::find(announced_.begin(), announced_.end(), h.at_ns) != announced_.end())
+        return static_cast<void>(know_end(exposure));
+    expect_exposure(exposure);
 }
 
-// Shows an exposure. A rolling shutter's next may begin before the end of the one before. end_ns: kNever_ns
-// while it is not known.
-void CameraLines::begin_exposure(std::int64_t begin_ns, std::int64_t end_ns) {
-    if (!exposing_ && exposure_begin_ns_ == kNever_ns) {
-        exposure_begin_ns_ = begin_ns;
-        exposure_end_ns_ = end_ns;
-    } else if (exposure_end_ns_ == kNever_ns || end_ns == kNever_ns) {
-        exposure_end_ns_ = end_ns;
-    } else {
-        exposure_end_ns_ = std::max(exposure_end_ns_, end_ns);
-    }
+void CameraLines::expect_exposure(const Span& exposure) {
+    const auto later = [](const Span& a, const Span& b) { return a.begin_ns < b.begin_ns; };
+    exposures_to_come_.insert(
+        std::upper_bound(exposures_to_come_.begin(), exposures_to_come_.end(), exposure, later), exposure);
+}
+
+// Sets the end of the exposure with that begin, if it has not ended; false when there is none.
+bool CameraLines::know_end(const Span& exposure) {
+    if (exposing_ && exposure_.begin_ns == exposure.begin_ns) return exposure_.end_ns = exposure.end_ns, true;
+    for (Span& span : exposures_to_come_)
+        if (span.begin_ns == exposure.begin_ns) return span.end_ns = exposure.end_ns, true;
+    return false;
 }
 
 // A counter counts one event, so that ends of counters cannot follow each other in a circle.
@@ -108,8 +117,10 @@ void CameraLines::fire(LineEvent event, bool rises, std::int64_t at_ns) {
 // --- time
 
 std::int64_t CameraLines::next_ns() const {
-    std::int64_t next_ns = std::min({trigger_.wake_ns(), exposing_ ? exposure_end_ns_ : exposure_begin_ns_,
-                                     to_come_.empty() ? kNever_ns : to_come_.front().monotonic_ns});
+    std::int64_t next_ns =
+        std::min({trigger_.wake_ns(), exposing_ ? exposure_.end_ns : kNever_ns,
+                  exposures_to_come_.empty() ? kNever_ns : exposures_to_come_.front().begin_ns,
+                  to_come_.empty() ? kNever_ns : to_come_.front().monotonic_ns});
     for (const LineTimer& timer : timers_) next_ns = std::min(next_ns, timer.next_ns());
     return next_ns;
 }
@@ -124,15 +135,17 @@ bool CameraLines::step(std::int64_t now_ns) {
         const LineEdge edge = to_come_.front();
         to_come_.erase(to_come_.begin());
         take_edge(edge);
-    } else if (!exposing_ && at_ns == exposure_begin_ns_) {
+    } else if (exposing_ && at_ns == exposure_.end_ns) {
+        exposing_ = false;
+        fire(LineEvent::kExposureEnd, true, at_ns);
+    } else if (!exposures_to_come_.empty() && at_ns == exposures_to_come_.front().begin_ns) {
+        const Span next = exposures_to_come_.front();
+        exposures_to_come_.erase(exposures_to_come_.begin());
+        // A rolling shutter's next exposure may begin before the end of the one before.
+        exposure_ = {next.begin_ns, exposing_ ? std::max(exposure_.end_ns, next.end_ns) : next.end_ns};
         exposing_ = frame_active_ = true;
-        exposure_begin_ns_ = kNever_ns;
         fire(LineEvent::kFrameStart, true, at_ns);
         fire(LineEvent::kExposureStart, true, at_ns);
-    } else if (exposing_ && at_ns == exposure_end_ns_) {
-        exposing_ = false;
-        exposure_end_ns_ = kNever_ns;
-        fire(LineEvent::kExposureEnd, true, at_ns);
     } else {
         for (std::size_t i = 0; i < kTimers; ++i)
             if (timers_[i].next_ns() == at_ns && timers_[i].step()) fire(end_of_timer(i), true, at_ns);

@@ -9,7 +9,9 @@
 // when tick() is called then, and each edge carries the nominal instant.
 //
 // The loop posts its events without a lock; tick() takes them, at wake_ns() or when on_wake()'s function was
-// called. With nothing to follow them, posts are dropped at once.
+// called. With nothing to follow them, posts are dropped at once. Exposures of triggers are posted when the
+// trigger is taken, so that outputs do not wait for the loop. Right after a change to triggered mode the loop
+// may begin such a frame later, once the exposure under way is over; an output then shows both begins.
 //
 // Threads: post() loop; all other functions any thread but the loop.
 
@@ -69,8 +71,13 @@ class CameraLines {
     struct Happening {
         LineEvent event = LineEvent::kOff;
         std::int64_t at_ns = 0, end_ns = 0;  // end: when an exposure that begins will end
+        // True for an exposure that a trigger will begin: it is shown at its time, and the loop's post of the
+        // same begin says no more than its end.
+        bool is_to_come = false;
     };
     void post(const Happening& happening) noexcept;
+    // Exposures that were posted to come, and have not begun, will not.
+    void drop_exposures() noexcept { post({}); }
 
     // --- time
     void tick(std::int64_t now_ns);
@@ -80,8 +87,8 @@ class CameraLines {
     void on_wake(std::function<void()> wake) { wake_ = std::move(wake); }
     // Takes the oldest edge of an output that has not been taken; false when there is none.
     bool take_output(LineEdge& edge);
-    // Sets the function that takes edges of inputs as the camera sees them, with a lock held: it must not call
-    // back. Before the threads start.
+    // Sets the function that takes edges of inputs as the camera sees them, with a lock held: it must not
+    // call back. Before the threads start.
     void on_edge(std::function<void(const LineEdge&)> tell) { tell_ = std::move(tell); }
 
     // --- registers
@@ -100,9 +107,13 @@ class CameraLines {
     static constexpr std::int64_t kPoll_ns = 5'000'000;  // for FrameTriggerWait
     static constexpr std::size_t kMaxOut = 256;
 
+    struct Span {
+        std::int64_t begin_ns = 0, end_ns = 0;  // end: kNever_ns while it is not known
+    };
     void take_edge(const LineEdge& edge);
     void take(const Happening& happening);
-    void begin_exposure(std::int64_t begin_ns, std::int64_t end_ns);
+    void expect_exposure(const Span& exposure);
+    bool know_end(const Span& exposure);
     void fire(LineEvent event, bool rises, std::int64_t at_ns);
     bool step(std::int64_t now_ns);
     void step_until(std::int64_t now_ns);
@@ -120,9 +131,11 @@ class CameraLines {
     TriggerInput trigger_;
     std::array<LineCounter, kCounters> counters_{};
     std::array<LineTimer, kTimers> timers_{};
-    std::vector<LineEdge> to_come_;  // in order of time
-    // An exposure is active from its begin to its end; both may be to come.
-    std::int64_t exposure_begin_ns_ = kNever_ns, exposure_end_ns_ = kNever_ns;
+    std::vector<LineEdge> to_come_;             // in order of time
+    std::vector<Span> exposures_to_come_;       // in order of their begin
+    Span exposure_;                             // the one that lasts, if exposing_; the last one otherwise
+    std::array<std::int64_t, 16> announced_{};  // begins of the newest exposures of triggers
+    std::size_t announced_count_ = 0;
     bool exposing_ = false, frame_active_ = false;
     std::int64_t ticked_ns_ = 0;
     std::vector<LineEdge> out_;

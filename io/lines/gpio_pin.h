@@ -1,8 +1,8 @@
 #pragma once
 // A pin of a GPIO chip, by the kernel's character device (linux/gpio.h, uAPI v2: Linux 5.10 and later).
 //
-// The kernel's interface in place of libgpiod: libgpiod 1 and 2, of Debian 12 and 13, have different functions
-// for the same, and the kernel's does not change.
+// The kernel's interface in place of libgpiod: libgpiod 1 and 2, of Debian 12 and 13, have different
+// functions for the same, and the kernel's does not change.
 
 #include <cstdint>
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace hilcam {
 
-// Opens an input, whose edges can be read from its descriptor with the kernel's times (CLOCK_MONOTONIC), or an
-// output at a level. Throws DeviceError that says what is missing.
+// Opens an input, whose edges can be read from its descriptor with the kernel's times (CLOCK_MONOTONIC), or
+// an output at a level. Throws DeviceError that says what is missing.
 Fd open_input_pin(const PinConfig& pin);
 Fd open_output_pin(const PinConfig& pin, bool level);
 

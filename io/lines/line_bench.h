@@ -1,10 +1,10 @@
 #pragma once
-// The wires of a bench: takes edges from UDP, pins and pulses per second to the cameras' inputs, and the edges
-// of their outputs to UDP and pins. One thread (and one for each pulse per second) does that, and gives the
-// cameras' lines their ticks; the frame loop only posts to them.
+// The wires of a bench: takes edges from UDP, pins and pulses per second to the cameras' inputs, and the
+// edges of their outputs to UDP and pins. One thread (and one for each pulse per second) does that, and gives
+// the cameras' lines their ticks; the frame loop only posts to them.
 //
-// An edge by UDP counts from the kernel's receive time stamp, or from the instant it names, at most kHorizon_ns
-// from now. Edges of pins and pulses have the kernel's times.
+// An edge by UDP counts from the kernel's receive time stamp, or from the instant it names, at most
+// kHorizon_ns from now. Edges of pins and pulses have the kernel's times.
 
 #include <atomic>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
-// A timer (SFNC CounterAndTimerControl): a pulse of TimerDuration that begins TimerDelay after an event, for a
-// strobe. Events while it runs, its delay included, do not count. Its times are the machine's
+// A timer (SFNC CounterAndTimerControl): a pulse of TimerDuration that begins TimerDelay after an event, for
+// a strobe. Events while it runs, its delay included, do not count. Its times are the machine's
 // (CLOCK_MONOTONIC). Example: event at 5 ms, delay 1 ms, duration 2 ms: active from 6 ms to 8 ms.
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-// The events and signals that lines, counters and timers can follow. Names and meanings are those of SFNC 2.4 (DigitalIOControl,
-// CounterAndTimerControl).
+// The events and signals that lines, counters and timers can follow. Names and meanings are those of SFNC 2.4
+// (DigitalIOControl, CounterAndTimerControl).
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
-// A pulse per second as a line's edges, by the kernel's PPS device (linux/pps.h, after RFC 2783): the receiver
-// of a navigation system, or a pin with the driver pps-gpio.
+// A pulse per second as a line's edges, by the kernel's PPS device (linux/pps.h, after RFC 2783): the
+// receiver of a navigation system, or a pin with the driver pps-gpio.
 //
 // The assert edge is the line's rising one, with the kernel's time. The clear edge is the falling one where
 // the device captures it; otherwise the pulse is taken to last kPulse_ns.

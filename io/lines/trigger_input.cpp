@@ -52,7 +52,8 @@ void TriggerInput::begin_exposure(const LineEdge& edge, const CameraSettings& s)
     begin_ = edge;
     shows_ = camera_.trigger_ready_ns() <= edge.monotonic_ns;
     longest_ns_ = camera_.monotonic_after(edge.monotonic_ns, camera_.limits().max_exposure_s);
-    if (shows_) exposes_({camera_.monotonic_after(edge.monotonic_ns, s.trigger_delay_s), 0, false});
+    exposure_ns_ = camera_.monotonic_after(edge.monotonic_ns, s.trigger_delay_s);
+    if (shows_) exposes_({exposure_ns_, 0, false});
 }
 
 void TriggerInput::end_exposure(std::int64_t at_ns) {
@@ -68,7 +69,7 @@ void TriggerInput::end_exposure(std::int64_t at_ns) {
         camera_.monotonic_after(begin_.monotonic_ns, camera_.limits().min_exposure_s);
     const bool taken = result == TriggerResult::kTaken;
     const std::int64_t end_ns = taken ? std::max(order.until_monotonic_ns, shortest_ns) : at_ns;
-    exposes_({begin_.monotonic_ns, camera_.monotonic_after(end_ns, of_.trigger_delay_s), !taken});
+    exposes_({exposure_ns_, camera_.monotonic_after(end_ns, of_.trigger_delay_s), !taken});
 }
 
 void TriggerInput::tick(std::int64_t now_ns) {

@@ -51,6 +51,7 @@ class TriggerInput {
     // An exposure by width that has begun with an edge.
     bool open_ = false, shows_ = false;  // shows_: the camera was ready for it
     LineEdge begin_;
+    std::int64_t exposure_ns_ = 0;  // its begin: the edge's instant and the delay
     std::int64_t longest_ns_ = 0;
 };
 

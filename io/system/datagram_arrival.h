@@ -11,8 +11,8 @@
 
 namespace hilcam {
 
-// Returns an instant of CLOCK_REALTIME on CLOCK_MONOTONIC, by its age. The age is limited to a second, so that
-// a step of the wall clock between the two readings shifts the result by no more.
+// Returns an instant of CLOCK_REALTIME on CLOCK_MONOTONIC, by its age. The age is limited to a second, so
+// that a step of the wall clock between the two readings shifts the result by no more.
 inline std::int64_t monotonic_of_realtime(std::int64_t realtime_ns) {
     const std::int64_t now_ns = monotonic_ns();
     return now_ns - std::clamp<std::int64_t>(clock_ns(CLOCK_REALTIME) - realtime_ns, 0, 1'000'000'000);
@@ -24,8 +24,8 @@ inline void ask_for_arrivals(int socket) {
     setsockopt(socket, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
 }
 
-// Returns the arrival on CLOCK_MONOTONIC. The kernel stamps datagrams with CLOCK_REALTIME. Without a stamp, it
-// is the present time.
+// Returns the arrival on CLOCK_MONOTONIC. The kernel stamps datagrams with CLOCK_REALTIME. Without a stamp,
+// it is the present time.
 inline std::int64_t arrival_of(msghdr& message) {
     for (cmsghdr* c = CMSG_FIRSTHDR(&message); c; c = CMSG_NXTHDR(&message, c)) {
         if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;

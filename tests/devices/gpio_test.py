@@ -142,7 +142,8 @@ class Pins(unittest.TestCase):
             self.assertIn(f"{CHIP.device} pin 3: Device or resource busy; another program has the pin", text)
 
     def test_a_pin_that_the_chip_has_not_is_named(self):
-        status, text = run(*Bench(f"  inputs: [{{line: 0, gpio: {CHIP.device}, pin: 99}}]\n").command)
+        bench = Bench(f"  inputs: [{{line: 0, gpio: {CHIP.device}, pin: 99}}]\n")
+        status, text = run(*bench.command)
         self.assertNotEqual(status, 0)
         self.assertIn(f"{CHIP.device} pin 99: Invalid argument; the chip has fewer pins", text)
 

@@ -160,7 +160,7 @@ void add_acquisition_features(FeatureTable& t) {
             command("TriggerSoftware", r::kTriggerSoftware, "A trigger"),
             enumeration("TriggerActivation", r::kTriggerActivation,
                         counted({"RisingEdge", "FallingEdge", "AnyEdge"}), "Of a line"),
-            integer("TriggerDivider", r::kTriggerDivider, "Of so many edges of a line, the last is a trigger")
+            integer("TriggerDivider", r::kTriggerDivider, "Each n-th edge of a line is a trigger")
                 .between(1, static_cast<double>(l.max_trigger_divider)),
             real("TriggerDelay", r::kTriggerDelay_us, "From a trigger to its first frame")
                 .between(0, l.max_trigger_delay_s * 1e6)
@@ -168,7 +168,7 @@ void add_acquisition_features(FeatureTable& t) {
             enumeration("TriggerOverlap", r::kTriggerOverlap,
                         l.can_wait_for_readout() ? counted({"Off", "ReadOut"})
                                                  : std::vector<EnumEntry>{{"ReadOut", 1}},
-                        "Off: a trigger before the end of the readout is missed")
+                        "Off: missed before the readout's end")
                 .read_only(!l.can_wait_for_readout()),
         });
     t.formulas.push_back(

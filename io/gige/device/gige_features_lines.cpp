@@ -44,10 +44,9 @@ void add_counters(FeatureTable& t) {
                             "CounterReset", "CounterValue", "CounterValueAtReset", "CounterDuration",
                             "CounterStatus"}),
               enumeration("CounterEventSource", r::kCounterEventSource, events(t.plan), "What it counts"),
-              enumeration("CounterEventActivation", r::kCounterEventActivation, activations(),
-                          "Of a line that it counts"),
+              enumeration("CounterEventActivation", r::kCounterEventActivation, activations(), "Of a line"),
               enumeration("CounterResetSource", r::kCounterResetSource, events(t.plan),
-                          "What sets it to 0; of a line: its rising edge"),
+                          "What sets it to 0; a line does so as it rises"),
               command("CounterReset", r::kCounterReset, "Sets it to 0"),
               integer("CounterValue", r::kCounterValue, "Events since its reset").between(0, kMaxCount),
               integer("CounterValueAtReset", r::kCounterValueAtReset, "Events before its last reset")
@@ -77,8 +76,7 @@ void add_timers(FeatureTable& t) {
                           counted({"TimerIdle", "TimerTriggerWait", "TimerActive"}), "What it does")
                   .read_only(),
               enumeration("TimerTriggerSource", r::kTimerTriggerSource, events(t.plan), "What starts it"),
-              enumeration("TimerTriggerActivation", r::kTimerTriggerActivation, activations(),
-                          "Of a line that starts it"),
+              enumeration("TimerTriggerActivation", r::kTimerTriggerActivation, activations(), "Of a line"),
           });
 }
 

@@ -16,6 +16,7 @@ struct GigeEvent {
     const char* name;  // SFNC
     std::uint16_t id;
     bool on_at_power_up;
+    bool of_frame = true;  // false: no frame belongs to it
 };
 inline constexpr std::array<GigeEvent, 7> kGigeEvents = {{
     {"ExposureStart", gvcp::Event::kFirstOfDevice + 1, false},
@@ -23,8 +24,8 @@ inline constexpr std::array<GigeEvent, 7> kGigeEvents = {{
     {"FrameTriggerMissed", gvcp::Event::kFirstOfDevice + 3, false},
     {"PrimaryApplicationSwitch", gvcp::Event::kPrimarySwitch, true},
     {"ActionLate", gvcp::Event::kActionLate, true},
-    {"Line0RisingEdge", gvcp::Event::kFirstOfDevice + 4, false},
-    {"Line0FallingEdge", gvcp::Event::kFirstOfDevice + 5, false},
+    {"Line0RisingEdge", gvcp::Event::kFirstOfDevice + 4, false, false},
+    {"Line0FallingEdge", gvcp::Event::kFirstOfDevice + 5, false, false},
 }};
 // Returns the place of a camera's event in kGigeEvents.
 constexpr std::size_t place_of(CameraEvent::Kind kind) {

@@ -1,8 +1,8 @@
 #pragma once
-// Triggers as clients see them. The camera has one trigger at a time. TriggerMode can be on for FrameStart (each
-// trigger takes a frame), FrameBurstStart (each takes AcquisitionBurstFrameCount frames) or AcquisitionStart
-// (the first trigger after the stream's start takes a frame, and the camera then runs freely until the stream
-// ends). Switching one on switches the others off.
+// Triggers as clients see them. The camera has one trigger at a time. TriggerMode can be on for FrameStart
+// (each trigger takes a frame), FrameBurstStart (each takes AcquisitionBurstFrameCount frames) or
+// AcquisitionStart (the first trigger after the stream's start takes a frame, and the camera then runs freely
+// until the stream ends). Switching one on switches the others off.
 //
 // The input is Line0, with the additional names in the identity, or another input line of the scenario
 // (io/lines). TriggerActivation and TriggerDivider hold for lines.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/support/plate.h"
 
@@ -59,6 +60,28 @@ TEST(LiveSettings, WithoutOverlapATriggerWaitsForTheReadout) {
         settings.change({.triggered = false});
         EXPECT_EQ(settings.trigger_ready_ns(), CameraControl::kNeverReady_ns);
     }
+}
+
+TEST(LiveSettings, ATriggersExposureIsToldAtOnceAndTakenBackByAStop) {
+    CameraModel camera;
+    camera.exposure_s = 0.03;
+    LiveSettings settings(camera, {.triggered = true});
+    std::vector<std::pair<std::int64_t, std::int64_t>> told;
+    settings.on_exposure(
+        [&](std::int64_t begin_ns, std::int64_t end_ns) { told.emplace_back(begin_ns, end_ns); });
+    ASSERT_TRUE(settings.change({.trigger_delay_s = 0.5}));
+    TriggerOrder order;
+    order.source = TriggerSource::kLine0;
+    order.at_monotonic_ns = monotonic_ns();
+    ASSERT_EQ(settings.trigger(order), TriggerResult::kTaken);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_EQ(told[0].first, order.at_monotonic_ns + 500'000'000);
+    EXPECT_EQ(told[0].second, order.at_monotonic_ns + 530'000'000);
+    EXPECT_EQ(settings.trigger(order), TriggerResult::kMissed);
+    EXPECT_EQ(told.size(), 1u);
+    ASSERT_TRUE(settings.change({.running = false}));
+    ASSERT_EQ(told.size(), 2u);
+    EXPECT_EQ(told[1].first, 0);
 }
 
 TEST(SettingsHistory, EachHoldFromTheirInstantOnAndTheOldestBeforeAll) {

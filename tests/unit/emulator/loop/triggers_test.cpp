@@ -113,7 +113,6 @@ TEST_F(FrameLoopTest, APulsesWidthIsItsFramesExposure) {
         EXPECT_DOUBLE_EQ(r.exposure_s, exposures_s[i]) << i;
         EXPECT_EQ(r.exposure_mid_monotonic_ns, begins_ns[i] + std::llround(0.5e9 * exposures_s[i])) << i;
     }
-    EXPECT_EQ(rig.loop.counters().deadline_misses.load(), 0u);
     // The longer exposure has more light.
     const auto light = [&](std::size_t i) {
         const auto& dn = rig.collector.frames[i].dn;

@@ -118,6 +118,38 @@ TEST(CameraLines, ExposuresOneAfterTheOtherAreTwoPulses) {
     EXPECT_EQ(w.out(), (Edges{{1, 1, 100}, {1, 0, 200}, {1, 1, 200}, {1, 0, 300}, {1, 1, 350}, {1, 0, 380}}));
 }
 
+// The loop gets to a frame later than its trigger, and knows its settings.
+TEST(CameraLines, AnExposureThatATriggerTellsIsShownBeforeTheLoopHasIt) {
+    Wires w;
+    w.set([](LineSettings& s) { s.source[1] = LineSignal::kExposureActive; });
+    const auto told = [&](std::int64_t begin_us, std::int64_t end_us) {
+        w.lines.post({LineEvent::kExposureStart, begin_us * kMicrosecond_ns, end_us * kMicrosecond_ns, true});
+    };
+    told(500, 600);
+    told(200, 300);
+    w.tick(100);
+    EXPECT_EQ(w.out(), Edges{});
+    EXPECT_EQ(w.lines.wake_ns(), 200 * kMicrosecond_ns);
+    w.tick(210);
+    EXPECT_EQ(w.out(), (Edges{{1, 1, 200}}));
+    w.exposure(200, 320);  // the loop, with the exposure that has been set meanwhile
+    w.tick(400);
+    EXPECT_EQ(w.out(), (Edges{{1, 0, 320}}));
+    w.tick(610);
+    EXPECT_EQ(w.out(), (Edges{{1, 1, 500}, {1, 0, 600}}));
+    w.exposure(500, 600);  // far too late: has been shown
+    w.tick(700);
+    EXPECT_EQ(w.out(), Edges{});
+    told(900, 950);
+    w.tick(800);
+    w.lines.drop_exposures();
+    w.tick(1000);
+    EXPECT_EQ(w.out(), Edges{});
+    w.exposure(1100, 1150);  // of another frame
+    w.tick(1200);
+    EXPECT_EQ(w.out(), (Edges{{1, 1, 1100}, {1, 0, 1150}}));
+}
+
 TEST(CameraLines, ARollingShuttersExposuresThatOverlapAreOnePulse) {
     Wires w;
     w.set([](LineSettings& s) { s.source[1] = LineSignal::kExposureActive; });
