@@ -141,7 +141,8 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     if (!lockstep_ && !wait_for_order(stopping)) return false;
     const SettingsHistory& history = settings_.history_in_loop();
     start.settings = lockstep_ ? history.newest() : history.at(next_ns_);
-    start.exposure_s = exposure_of(start.settings);
+    const bool by_width = order_.exposure_s > 0;
+    start.exposure_s = by_width ? order_.exposure_s : exposure_of(start.settings);
     start.camera_ns = next_ns_;
     const std::int64_t period_ns = to_ns(timing_.period_s(start.settings.frame_rate_hz, start.exposure_s));
     if (lockstep_) {
@@ -149,8 +150,10 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
         clock_.step_to(last_mid_);
         settings_.report_middle(last_mid_);
     } else {
-        start.late = camera_now() > next_ns_ + period_ns;
-        ready_ns_ = start.ready_camera_ns = next_ns_ + settings_.shortest_period_ns(start.exposure_s);
+        // The length of a pulse is known at its end, so its frame cannot be rendered before.
+        start.late = camera_now() > next_ns_ + period_ns + (by_width ? to_ns(start.exposure_s) : 0);
+        ready_ns_ = start.ready_camera_ns =
+            next_ns_ + settings_.shortest_period_ns(start.settings.trigger_overlap, start.exposure_s);
         settings_.report_ready(ready_ns_, ready_ns_ + (left_ - 1) * period_ns);
     }
     next_ns_ += period_ns;

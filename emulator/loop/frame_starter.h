@@ -6,6 +6,8 @@
 //               the newest pose
 //   triggered   at each trigger, and for a burst at the frame rate after it; every frame of an order is
 //               taken, however late
+//               With ExposureMode TriggerWidth an order comes at the end of its exposure and says how long
+//               that was: the frame is rendered then, for the instants of the pulse
 //   lockstep    as soon as an `expose` has arrived, at the simulated time it names; no clock is involved, so
 //               the same commands give the same frames on any machine
 //

@@ -103,6 +103,12 @@ bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const 
     if (w.automatic_exposure && !l.has_automatic_exposure) return false;
     if ((w.reverse_x || w.reverse_y) && !l.reversible) return false;
     if (l.lockstep && !w.triggered) return false;
+    if (w.exposure_mode == ExposureMode::kTriggerWidth &&
+        (!l.has_trigger_width() || w.automatic_exposure ||
+         w.trigger_activation == TriggerActivation::kAnyEdge))
+        return false;
+    if (w.trigger_overlap == TriggerOverlap::kOff && !l.can_wait_for_readout()) return false;
+    if (w.trigger_divider < 1 || w.trigger_divider > l.max_trigger_divider) return false;
     const auto binning_fits = [&](const std::optional<std::int64_t>& b) {
         return !b || (*b >= 1 && *b <= l.max_binning && (*b & (*b - 1)) == 0);
     };
@@ -132,8 +138,10 @@ bool LiveSettings::change(const SettingsChange& c, std::int64_t from_camera_ns) 
     if (settings_.automatic_exposure && !wanted.automatic_exposure && !c.exposure_s)
         wanted.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
     settings_ = wanted;
-    if (!limits_.lockstep && (!wanted.running || !wanted.triggered))
+    if (!limits_.lockstep && (!wanted.running || !wanted.triggered)) {
         dropped_below_.store(triggers_in_.load(std::memory_order_relaxed), std::memory_order_release);
+        if (exposes_) exposes_(0, 0);
+    }
     history_.add(settings_, from_camera_ns);
     latest_.write(history_);
     if (changed_) changed_(c);
@@ -167,6 +175,7 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
         const std::int64_t now_ns = monotonic_ns();
         if (order.at_monotonic_ns == 0) order.at_monotonic_ns = now_ns;
         order.delay_ns = static_cast<std::int64_t>(settings_.trigger_delay_s * 1e9);
+        if (order.until_monotonic_ns != 0 && order.frames == 1) order.exposure_s = exposure_of(order);
         const std::int64_t due_ns = camera_time_of(order, now_ns) + order.delay_ns;
         missed = missed || due_ns < ready_ns(in, now_ns);
         if (missed && missed_) missed_(now_ns);
@@ -177,7 +186,34 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     triggers_[in % kMaxWaiting] = order;
     triggers_in_.store(in + 1, std::memory_order_release);
     wake();
+    if (exposes_) tell_exposure(order, monotonic_ns());
     return TriggerResult::kTaken;
+}
+
+// The exposure of a pulse is over, and that of a trigger in simulated time depends on the clock.
+void LiveSettings::tell_exposure(const WaitingOrder& order, std::int64_t now_ns) const {
+    if (limits_.lockstep || order.frames != 1 || order.exposure_s > 0 || order.at_simulated.ns != 0) return;
+    const std::int64_t begin_ns = camera_time_of(order, now_ns) + order.delay_ns;
+    const std::int64_t end_ns = begin_ns + to_ns(timing_.end_s(exposure_now_s()));
+    exposes_(clock_->monotonic_of_camera(begin_ns), clock_->monotonic_of_camera(end_ns));
+}
+
+// Returns the exposure for a pulse's width.
+double LiveSettings::exposure_of(const TriggerOrder& order) const {
+    const std::int64_t width_ns =
+        clock_->camera_at(order.until_monotonic_ns) - clock_->camera_at(order.at_monotonic_ns);
+    return std::clamp(static_cast<double>(width_ns) * 1e-9, limits_.min_exposure_s, limits_.max_exposure_s);
+}
+
+std::int64_t LiveSettings::trigger_ready_ns() const {
+    const std::lock_guard lock(mutex_);
+    if (closed_.load() || limits_.lockstep || !settings_.running || !settings_.triggered)
+        return kNeverReady_ns;
+    if (poses_ && poses_->stops(clock_->now())) return kNeverReady_ns;
+    const std::uint64_t in = triggers_in_.load(std::memory_order_relaxed);
+    const std::int64_t ready_camera_ns = ready_ns(in, monotonic_ns());
+    if (ready_camera_ns == std::numeric_limits<std::int64_t>::min()) return 0;
+    return clock_->monotonic_of_camera(ready_camera_ns - to_ns(settings_.trigger_delay_s));
 }
 
 TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
@@ -212,10 +248,10 @@ std::int64_t LiveSettings::ready_ns(std::uint64_t orders, std::int64_t now_ns) c
     if (dropped_below_.load(std::memory_order_relaxed) == orders)
         return frame_ready_ns_.load(std::memory_order_relaxed);
     if (none_waits) return order_ready_ns_.load(std::memory_order_relaxed);
-    const double exposure_s = exposure_now_s();
+    const double exposure_s = newest_order_.exposure_s > 0 ? newest_order_.exposure_s : exposure_now_s();
     const std::int64_t period_ns = to_ns(timing_.period_s(settings_.frame_rate_hz, exposure_s));
     return camera_time_of(newest_order_, now_ns) + newest_order_.delay_ns +
-           (newest_order_.frames - 1) * period_ns + shortest_period_ns(exposure_s);
+           (newest_order_.frames - 1) * period_ns + shortest_period_ns(settings_.trigger_overlap, exposure_s);
 }
 
 bool LiveSettings::take_trigger(WaitingOrder& order) {

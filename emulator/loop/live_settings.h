@@ -49,6 +49,10 @@ class LiveSettings : public CameraControl {
     // the trigger's arrival count. In lockstep, a trigger is missed when kMaxWaiting are waiting. Not armed:
     // the camera is stopped or in free-run, or frames wait for poses (pose_watch.h).
     TriggerResult trigger(const TriggerOrder& order) override;
+    std::int64_t trigger_ready_ns() const override;
+    std::int64_t monotonic_after(std::int64_t from_monotonic_ns, double camera_s) const override {
+        return clock_->monotonic_of_camera(clock_->camera_at(from_monotonic_ns) + to_ns(camera_s));
+    }
     // Sets a function that is called, with a lock held, for every missed trigger; it must not call back. Set
     // before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
@@ -58,6 +62,14 @@ class LiveSettings : public CameraControl {
     void on_change(std::function<void(const SettingsChange&)> tell) { changed_ = std::move(tell); }
     void on_trigger(std::function<void(const TriggerOrder&, TriggerResult)> tell) {
         triggered_ = std::move(tell);
+    }
+
+    // Sets a function that is called, with a lock held, when a trigger for a single frame is taken: with its
+    // exposure on CLOCK_MONOTONIC as far as it is known then, before the loop gets to it. begin_ns = 0:
+    // exposures that were reported and have not begun will not. It must not call back. Set before the threads
+    // start.
+    void on_exposure(std::function<void(std::int64_t begin_ns, std::int64_t end_ns)> tell) {
+        exposes_ = std::move(tell);
     }
 
     // For lockstep, one caller at a time: call order_in_lockstep(), then wait_for_order(). That returns when
@@ -74,6 +86,7 @@ class LiveSettings : public CameraControl {
     // Takes the next trigger in order of arrival; false when there is none.
     struct WaitingOrder : TriggerOrder {
         std::int64_t delay_ns = 0;  // delay after its time, in the camera's time
+        double exposure_s = 0;      // from its until_monotonic_ns; 0: that of the settings
         std::uint64_t number = 0;   // sequence number among accepted triggers, from 0
     };
     bool take_trigger(WaitingOrder& order);
@@ -104,9 +117,12 @@ class LiveSettings : public CameraControl {
         own_gain_db_.store(gain_db, std::memory_order_relaxed);
     }
 
-    // Returns the shortest time that a frame occupies the camera, in the camera's time.
-    std::int64_t shortest_period_ns(double exposure_s) const {
-        return to_ns(timing_.period_s(limits_.max_frame_rate_hz, exposure_s));
+    // Returns the shortest time from a trigger to the next, in the camera's time.
+    std::int64_t shortest_period_ns(TriggerOverlap overlap, double exposure_s) const {
+        const double period_s = overlap == TriggerOverlap::kOff
+                                    ? timing_.period_with_readout_s(limits_.max_frame_rate_hz, exposure_s)
+                                    : timing_.period_s(limits_.max_frame_rate_hz, exposure_s);
+        return to_ns(period_s);
     }
 
     // Call when all accepted orders have begun or are dropped. frame_ns, order_ns: instants of the camera's
@@ -128,6 +144,8 @@ class LiveSettings : public CameraControl {
     double exposure_now_s() const;
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
     TriggerResult take_order(const TriggerOrder& asked);
+    double exposure_of(const TriggerOrder& order) const;
+    void tell_exposure(const WaitingOrder& order, std::int64_t now_ns) const;
     std::int64_t camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const;
     std::int64_t ready_ns(std::uint64_t orders, std::int64_t now_ns) const;
 
@@ -157,6 +175,7 @@ class LiveSettings : public CameraControl {
     std::function<void(std::int64_t)> missed_;
     std::function<void(const SettingsChange&)> changed_;
     std::function<void(const TriggerOrder&, TriggerResult)> triggered_;
+    std::function<void(std::int64_t, std::int64_t)> exposes_;
 };
 
 }  // namespace hilcam

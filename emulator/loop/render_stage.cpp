@@ -34,7 +34,8 @@ bool RenderStage::run(FrameSlot& slot, const std::atomic<bool>& stopping) {
     if (!begin(slot, stopping)) return false;
     latch(slot);
     const FrameUse& use = slot.use;
-    for (FrameSink* sink : sinks_) sink->on_event({CameraEvent::Kind::kExposureStart, use.id, use.begin_ns});
+    for (FrameSink* sink : sinks_)
+        sink->on_event({CameraEvent::Kind::kExposureStart, use.id, use.begin_ns, use.end_ns});
     render(slot);
     if (observers_.watcher)
         observers_.watcher->seen({use.id, use.begin_ns, use.exposure_mid, use.exposure_s, use.shutter_closed},

@@ -42,4 +42,11 @@ double ShutterTiming::period_s(double frame_rate_hz, double exposure_s) const {
     return is_fixed() ? busy_s(exposure_s) : std::max(1 / frame_rate_hz, busy_s(exposure_s));
 }
 
+double ShutterTiming::period_with_readout_s(double max_frame_rate_hz, double exposure_s) const {
+    if (is_fixed()) return busy_s(exposure_s);
+    const double end = end_s(longest_exposure_s(exposure_s));
+    return kind_ == ShutterKind::kRolling ? std::max(end, 1 / max_frame_rate_hz)
+                                          : end + 1 / max_frame_rate_hz;
+}
+
 }  // namespace hilcam

@@ -34,6 +34,9 @@ class ShutterTiming {
     double busy_s(double exposure_s) const;
     // Returns the frame period for a requested frame rate [s].
     double period_s(double frame_rate_hz, double exposure_s) const;
+    // Returns the frame period when no exposure begins before the frame before is read out [s]. A global
+    // shutter is read out as fast as its highest frame rate permits, a rolling one while its rows end.
+    double period_with_readout_s(double max_frame_rate_hz, double exposure_s) const;
 
   private:
     ShutterKind kind_;

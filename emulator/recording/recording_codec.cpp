@@ -19,6 +19,7 @@ class Writer {
     explicit Writer(std::span<std::uint8_t> bytes) : out_(bytes) {}
 
     std::size_t size() const { return out_.size(); }
+    static bool at_end() { return false; }
     void u8(std::uint8_t value) { out_.u8(value); }
     void operator()(bool value) { out_.u8(value ? 1u : 0u); }
     void operator()(std::uint16_t value) { out_.u16(value); }
@@ -52,6 +53,8 @@ class Reader {
     // True when all bytes were read, and no more.
     bool ended_well() const { return ok_ && in_.ok() && in_.left() == 0; }
     void fail() { ok_ = false; }
+    // True at the end of a record of a program that did not have what follows.
+    bool at_end() const { return in_.left() == 0; }
     std::uint8_t u8() { return in_.u8(); }
     void operator()(bool& value) {
         const std::uint8_t byte = in_.u8();
@@ -95,7 +98,10 @@ class Reader {
     bool ok_ = true;
 };
 
-TriggerSource last_of(TriggerSource) { return TriggerSource::kAction1; }
+TriggerSource last_of(TriggerSource) { return TriggerSource::kLine7; }
+TriggerActivation last_of(TriggerActivation) { return TriggerActivation::kAnyEdge; }
+TriggerOverlap last_of(TriggerOverlap) { return TriggerOverlap::kReadOut; }
+ExposureMode last_of(ExposureMode) { return ExposureMode::kTriggerWidth; }
 TestPattern last_of(TestPattern) { return TestPattern::kRampHorizontalMoving; }
 
 // --- the lists of fields. R is the record, const for a Writer.
@@ -187,6 +193,7 @@ template <class A, class R>
 void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedChange> {
     a(r.camera), a(r.monotonic_ns);
     visit_settings([&](std::string_view, auto, auto wish) {
+        if (a.at_end()) return;
         a.maybe(r.change.*wish, [&](auto& value) {
             if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>)
                 a.word(value, last_of(value));
@@ -202,6 +209,7 @@ void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedTr
     a.word(o.source, last_of(o.source));
     a(o.at_monotonic_ns), a(o.at_simulated.ns), a(o.frames), a(o.sequence), a(o.at_any_time);
     a.word(r.result, TriggerResult::kTooEarly);
+    if (!a.at_end()) a(o.until_monotonic_ns);
 }
 template <class A, class R>
 void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedShown> {

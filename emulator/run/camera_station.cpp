@@ -13,6 +13,7 @@
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
+#include "io/contract/refused_settings.h"
 #include "sensor/ideal_sensor.h"
 
 namespace hilcam {
@@ -52,18 +53,40 @@ CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number,
       number_(number),
       limits_(limits),
       settings_(scenario_.camera, mode_of(scenario_)),
+      lines_(settings_, plan_of(scenario_.lines, number)),
       faults_(seed_of_camera(scenario_, number - 1)),
       light_parts_(apart_refusal(scenario_)),
       timed_faults_(scenario_.faults) {
-    settings_.on_missed_trigger([this](std::int64_t monotonic_ns) {
-        for (const auto& sink : sinks_) sink->on_event({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
-    });
+    connect_lines();
     std::stable_sort(timed_faults_.begin(), timed_faults_.end(),
                      [](const FaultConfig& a, const FaultConfig& b) { return a.at_s < b.at_s; });
     if (limits.outputs) make_sinks();
 }
 
 CameraStation::~CameraStation() = default;
+
+void CameraStation::connect_lines() {
+    settings_.on_missed_trigger([this](std::int64_t monotonic_ns) {
+        for (const auto& sink : sinks_) sink->on_event({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
+        line_watch_.on_event({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
+    });
+    settings_.on_exposure([this](std::int64_t begin_ns, std::int64_t end_ns) {
+        if (begin_ns == 0)
+            lines_.drop_exposures();
+        else
+            lines_.post({LineEvent::kExposureStart, begin_ns, end_ns, true});
+    });
+    lines_.on_edge([this](const LineEdge& edge) {
+        using Kind = CameraEvent::Kind;
+        if (edge.line != 0) return;
+        for (const auto& sink : sinks_)
+            sink->on_event({edge.level ? Kind::kLine0Rises : Kind::kLine0Falls, 0, edge.monotonic_ns});
+    });
+    if (!scenario_.lines.trigger) return;
+    const SettingsChange change = change_of(*scenario_.lines.trigger);
+    if (!settings_.change(change))
+        throw InputError("lines.trigger: " + refusal_of(change, settings_.settings(), settings_.limits()));
+}
 
 void CameraStation::make_sinks() {
     const auto [width, height] = array_size(scenario_.camera);  // largest size of a frame
@@ -90,7 +113,7 @@ void CameraStation::make_sinks() {
 SinkContext CameraStation::sink_context() {
     const bool clocked = scenario_.mode != CameraMode::kLockstep && !limits_.replay_fast;
     OutputMeter& meter = output_meters_.emplace_back(delivery_, scenario_.loop.fail_on, clocked);
-    return {settings_, faults_, &meter, &fates_, &light_parts_};
+    return {settings_, faults_, &meter, &fates_, &light_parts_, &lines_};
 }
 
 std::string CameraStation::status() const {
@@ -142,7 +165,9 @@ void CameraStation::serve_light_parts() {
 void CameraStation::prepare(const StationLinks& links) {
     links_.emplace(links);
     serve_faults(0);
-    if (links.recorder) record_changes(*links.recorder);
+    tell_of_changes(links.recorder);
+    std::vector<FrameSink*> watching = sinks();
+    if (scenario_.mode != CameraMode::kLockstep && !links.script) watching.push_back(&line_watch_);
     loop_ = std::make_unique<FrameLoop>(LoopParts{
         .exposures = *exposures_,
         .chain = *chain_,
@@ -152,7 +177,7 @@ void CameraStation::prepare(const StationLinks& links) {
         .faults = faults_,
         .clock = links.clock,
         .poses = &links.poses,
-        .sinks = sinks(),
+        .sinks = std::move(watching),
         .seed = seed_of_camera(scenario_, number_ - 1),
         .limits = {limits_.frames, limits_.warm_up, limits_.paced, governor(), scenario_.loop.prefer,
                    static_cast<std::uint64_t>(scenario_.loop.fail_on.from_frame)},
@@ -199,13 +224,16 @@ void CameraStation::find_level_costs() {
     exposures_->use_level(0);
 }
 
-void CameraStation::record_changes(Recorder& recorder) {
+// recorder: null: nothing is recorded.
+void CameraStation::tell_of_changes(Recorder* recorder) {
     const auto camera = static_cast<std::uint16_t>(number_);
-    settings_.on_change([&recorder, camera](const SettingsChange& change) {
-        recorder.put(RecordedChange{camera, monotonic_ns(), change});
-    });
-    settings_.on_trigger([&recorder, camera](const TriggerOrder& order, TriggerResult result) {
-        recorder.put(RecordedTrigger{camera, monotonic_ns(), order, result});
+    if (recorder)
+        settings_.on_change([recorder, camera](const SettingsChange& change) {
+            recorder->put(RecordedChange{camera, monotonic_ns(), change});
+        });
+    settings_.on_trigger([this, recorder, camera](const TriggerOrder& order, TriggerResult result) {
+        if (result == TriggerResult::kTaken) lines_.post({LineEvent::kFrameTrigger, monotonic_ns(), 0});
+        if (recorder) recorder->put(RecordedTrigger{camera, monotonic_ns(), order, result});
     });
 }
 

@@ -20,6 +20,7 @@
 #include "emulator/scenario/scene_loader.h"
 #include "io/contract/command_receiver.h"
 #include "io/contract/frame_fates.h"
+#include "io/lines/camera_lines.h"
 
 namespace hilcam {
 
@@ -115,13 +116,15 @@ class CameraStation {
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
     // Returns what one more output works with, an OutputMeter of its own included.
     SinkContext sink_context();
+    CameraLines& lines() { return lines_; }
 
   private:
     void make_sinks();
+    void connect_lines();
     void find_level_costs();
     void serve_light_parts();
     GovernorSettings governor() const;
-    void record_changes(Recorder& recorder);
+    void tell_of_changes(Recorder* recorder);
     std::string status() const;
 
     static constexpr std::size_t kMaxLogged = 100'000;
@@ -130,6 +133,8 @@ class CameraStation {
     std::size_t number_;
     RunLimits limits_;
     LiveSettings settings_;
+    CameraLines lines_;
+    LineWatch line_watch_{lines_};
     FaultBoard faults_;
     DeliveryMeter delivery_;
     std::deque<OutputMeter> output_meters_;

@@ -5,6 +5,7 @@
 #include "emulator/recording/recorder.h"
 #include "emulator/run/event_director.h"
 #include "io/contract/refused_settings.h"
+#include "io/lines/camera_lines.h"
 #include "render/sky/motion_bounds.h"
 #include "render/vocabulary/overloaded.h"
 
@@ -260,7 +261,10 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
     if (e.time.ns != 0) order.at_simulated = tag;
     return for_cameras(
         source.camera,
-        [&](const CommandedCamera& c) { return answer_of(c, c.settings->trigger(order), source.notes); },
+        [&](const CommandedCamera& c) {
+            const TriggerResult result = c.lines ? c.lines->pulse(order) : c.settings->trigger(order);
+            return answer_of(c, result, source.notes);
+        },
         source.notes);
 }
 

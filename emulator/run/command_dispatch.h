@@ -18,11 +18,14 @@
 
 namespace hilcam {
 
+class CameraLines;
+
 // The parts of a camera that commands act on. All must outlive the dispatch.
 struct CommandedCamera {
     WorldState* world = nullptr;
     LiveSettings* settings = nullptr;
     FaultBoard* faults = nullptr;
+    CameraLines* lines = nullptr;  // null: a pulse on Line0 goes to the camera as it is
 };
 
 class EventDirector;

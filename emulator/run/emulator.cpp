@@ -90,6 +90,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     make_replays();
     make_recorder();
     make_events();
+    make_lines();
     make_light_maker();
     prepare_stations();
 }
@@ -115,7 +116,7 @@ void Emulator::load_stations() {
 std::vector<CommandedCamera> Emulator::commanded_cameras() const {
     std::vector<CommandedCamera> cameras;
     for (const auto& station : stations_)
-        cameras.push_back({&station->world(), &station->settings(), &station->faults()});
+        cameras.push_back({&station->world(), &station->settings(), &station->faults(), &station->lines()});
     return cameras;
 }
 
@@ -155,6 +156,14 @@ void Emulator::make_events() {
     if (clock_.lockstep()) dispatch_->ask_events(*events_);
 }
 
+// Lines work in real time. Without a scenario's lines, GigE Vision has counters, timers and Line0.
+void Emulator::make_lines() {
+    if (!limits_.outputs || !limits_.replay.empty() || clock_.lockstep()) return;
+    std::vector<CameraLines*> cameras;
+    for (const auto& station : stations_) cameras.push_back(&station->lines());
+    lines_ = std::make_unique<LineBench>(scenario_.lines, std::move(cameras));
+}
+
 void Emulator::make_light_maker() {
     std::vector<LightMaker::Job> jobs;
     for (const auto& station : stations_)
@@ -187,6 +196,7 @@ void Emulator::prepare_stations() {
 // before them.
 Emulator::~Emulator() {
     if (telemetry_) telemetry_->stop();
+    if (lines_) lines_->stop();
     for (const auto& station : stations_) station->stop_outputs();
     if (events_) events_->stop();
     for (const auto& replay : replays_) replay->stop();
@@ -252,6 +262,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     for (const auto& station : stations_) station->start_outputs();
     if (telemetry_) telemetry_->start();
     for (const auto& receiver : receivers_) receiver->start();
+    if (lines_) lines_->start();
     const std::int64_t begun_ns = monotonic_ns();
     begun_ns_ = begun_ns;
     begun_processor_ns_ = processor_printed_ns_ = processor_ns();
@@ -301,6 +312,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     print_level_changes();
     note_time(begun_ns);
     for (const auto& receiver : receivers_) receiver->stop();
+    if (lines_) lines_->stop();
     if (telemetry_) telemetry_->stop();
     for (const auto& station : stations_) {
         station->stop_outputs();
@@ -308,6 +320,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     }
     if (recorder_) recorder_->stop();
     print_replays();
+    print_lines();
 }
 
 void Emulator::note_time(std::int64_t begun_ns) {
@@ -315,6 +328,15 @@ void Emulator::note_time(std::int64_t begun_ns) {
     seconds_ = static_cast<double>(ns) * 1e-9;
     if (ns > 0)
         used_cores_ = static_cast<double>(processor_ns() - begun_processor_ns_) / static_cast<double>(ns);
+}
+
+void Emulator::print_lines() const {
+    if (!lines_ || !scenario_.lines.any()) return;
+    const LineReport r = lines_->report();
+    spdlog::info(
+        "lines: {} edges in ({} refused, {} from strangers), {} out ({} lost), at most {:.0f} us after their "
+        "instant",
+        r.edges_in, r.edges_refused, r.strangers, r.edges_out, r.edges_lost, r.worst_late_us);
 }
 
 void Emulator::print_replays() const {

@@ -18,6 +18,7 @@
 #include "emulator/run/light_maker.h"
 #include "emulator/run/silence_log.h"
 #include "emulator/scenario/app_config.h"
+#include "io/lines/line_bench.h"
 
 namespace hilcam {
 
@@ -59,9 +60,11 @@ class Emulator {
     void make_replays();
     void make_recorder();
     void make_events();
+    void make_lines();
     void make_light_maker();
     void prepare_stations();
     void print_replays() const;
+    void print_lines() const;
     void make_telemetry();
     HousekeepingFigures housekeeping();
     void print_missed(std::int64_t now_ns);
@@ -89,6 +92,8 @@ class Emulator {
     std::unique_ptr<Recorder> recorder_;          // outlives everything that records; may be null
     std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them
     std::unique_ptr<EventDirector> events_;         // outlives the loop that it watches; may be null
+    // Outlives the loops that wake it; null: without outputs, in a replay and in lockstep.
+    std::unique_ptr<LineBench> lines_;
     std::vector<std::unique_ptr<CameraStation>> stations_;
     // Gives tables to renderers; null: no table is made during the run.
     std::unique_ptr<LightMaker> light_maker_;

@@ -99,6 +99,7 @@ Fields fields(ScenarioConfig& s) {
         beside_frames(sections("faults", s.faults, "faults that the scenario injects")),
         beside_frames(sections("events", s.events, "actions of the scenario at a time or on a condition")),
         beside_frames(section("commands", s.commands, "sources of commands")),
+        beside_frames(section("lines", s.lines, "input and output lines of the cameras (docs/lines.md)")),
         beside_frames(
             section("telemetry", s.telemetry, "receivers of unrequested frame reports and housekeeping")),
         beside_frames(section("outputs", s.outputs, "destinations of frames")),
@@ -139,6 +140,38 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
         throw KeyError("rays.line_time_us", "found " + plain(rays.line_time_s * 1e6) +
                                                 "; camera.shutter.line_time_us is " +
                                                 plain(shutter.line_time_s * 1e6));
+}
+
+// Names of outputs.gige.lines are those of Line0, so lines must have others.
+void check_line_names(const OutputsConfig& outputs, const std::string& prefix, const LinePlan& plan) {
+    const auto* gige = outputs.find<GigeConfig>();
+    if (!gige) return;
+    for (std::size_t line = 1; line < kLines; ++line) {
+        const std::string name = "Line" + std::to_string(line);
+        if (plan.is_there[line] &&
+            std::find(gige->lines.begin(), gige->lines.end(), name) != gige->lines.end())
+            throw refused_key(prefix + "outputs.gige.lines", "'" + name + "', which is a line of 'lines'",
+                              "further names of Line0");
+    }
+}
+
+void check_lines(const ScenarioConfig& s) {
+    if (s.mode == CameraMode::kLockstep && s.lines.any())
+        throw KeyError(
+            "lines", "found with 'mode: lockstep'; accepted: free_run, triggered, as edges are in real time");
+    const auto cameras = static_cast<std::int64_t>(1 + s.more_cameras.size());
+    const auto check = [&](const std::string& list, std::size_t i, std::int64_t camera, int first) {
+        if (camera > cameras)
+            throw refused_key("lines." + list + "." + std::to_string(i) + ".camera", std::to_string(camera),
+                              std::to_string(first) + " to " + std::to_string(cameras));
+    };
+    for (std::size_t i = 0; i < s.lines.inputs.size(); ++i) check("inputs", i, s.lines.inputs[i].camera, 0);
+    for (std::size_t i = 0; i < s.lines.outputs.size(); ++i)
+        check("outputs", i, s.lines.outputs[i].camera, 1);
+    check_line_names(s.outputs, "", plan_of(s.lines, 1));
+    for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
+        check_line_names(s.more_cameras[i].outputs, "more_cameras." + std::to_string(i) + ".",
+                         plan_of(s.lines, i + 2));
 }
 
 // Files of two cameras have the same names, so two cameras must not share a folder.
@@ -246,6 +279,7 @@ void validate(const ScenarioConfig& s) {
     lamp_mounts(s);
     check_folders(s);
     check_listening_ports(s);
+    check_lines(s);
     if (s.commands.has_vizard) check_vizard(s);
     if (s.mode == CameraMode::kLockstep)
         require_lockstep(s.clock), require_lockstep(s.commands.poses), require_lockstep(s.loop.fail_on);

@@ -25,6 +25,7 @@
 #include "emulator/world/world_state.h"
 #include "io/commands/telemetry.h"
 #include "io/config/key_places.h"
+#include "io/lines/lines_config.h"
 #include "render/earth/earth_config.h"
 #include "render/frame/render_quality.h"
 #include "render/sky/atmosphere_config.h"
@@ -92,6 +93,7 @@ struct ScenarioConfig {
     std::vector<FaultConfig> faults;
     std::vector<EventConfig> events;
     CommandsConfig commands;
+    LinesConfig lines;
     std::optional<TelemetryConfig> telemetry;
     OutputsConfig outputs;
 };

@@ -40,6 +40,7 @@ void check_listening_ports(const ScenarioConfig& s) {
         listeners.add("TCP", "commands.tcp.port", s.commands.tcp.address, s.commands.tcp.port);
     if (s.telemetry)
         listeners.add("TCP", "telemetry.port", s.telemetry->port.address, s.telemetry->port.port);
+    if (s.lines.udp) listeners.add("UDP", "lines.udp.port", s.lines.udp->address, s.lines.udp->port);
     add_outputs("", s.outputs, listeners);
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
         add_outputs("more_cameras." + std::to_string(i) + ".", s.more_cameras[i].outputs, listeners);

@@ -31,7 +31,7 @@ bool frees_camera(const EventConfig& event) {
 }
 
 // Frames are requested by commands, the preview's button and events; in triggered mode also by GigE Vision's
-// software trigger and action commands, which are refused in lockstep.
+// software trigger and action commands, which are refused in lockstep, and by edges of lines.
 void look_at_askers(const ScenarioConfig& s, Lines& out) {
     if (s.mode == CameraMode::kFreeRun) return;
     const bool lockstep = s.mode == CameraMode::kLockstep;
@@ -43,7 +43,11 @@ void look_at_askers(const ScenarioConfig& s, Lines& out) {
     const bool event = std::any_of(s.events.begin(), s.events.end(), [&](const EventConfig& e) {
         return actions_of(e).takes_picture() || (!lockstep && frees_camera(e));
     });
-    if (port || event) return;
+    const bool wire = s.lines.udp || std::any_of(s.lines.inputs.begin(), s.lines.inputs.end(),
+                                                 [](const LineInputConfig& input) {
+                                                     return !input.pin.gpio.empty() || !input.pps.empty();
+                                                 });
+    if (port || event || wire) return;
     if (lockstep)
         out.push_back(s.places.at(
             "mode",

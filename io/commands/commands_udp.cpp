@@ -4,33 +4,13 @@
 #include <poll.h>
 #include <sys/socket.h>
 
-#include <algorithm>
-#include <cstring>
-
+#include "io/system/datagram_arrival.h"
 #include "io/system/monotonic.h"
 
 namespace hilcam {
 namespace {
 
 constexpr std::size_t kMaxDatagramBytes = 65536;
-
-// Returns the arrival on CLOCK_MONOTONIC. The kernel stamps datagrams with CLOCK_REALTIME; the stamp's age
-// converts it. Without a stamp, it is the present time.
-std::int64_t arrival_of(msghdr& message) {
-    const std::int64_t now_ns = monotonic_ns();
-    for (cmsghdr* c = CMSG_FIRSTHDR(&message); c; c = CMSG_NXTHDR(&message, c)) {
-        if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
-        timespec stamp{}, wall{};
-        std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
-        clock_gettime(CLOCK_REALTIME, &wall);
-        const std::int64_t age_ns =
-            (std::int64_t{wall.tv_sec} - stamp.tv_sec) * 1'000'000'000 + wall.tv_nsec - stamp.tv_nsec;
-        // The age is limited to a second, so that a step of the wall clock between the two readings shifts
-        // the arrival by no more.
-        return now_ns - std::clamp<std::int64_t>(age_ns, 0, 1'000'000'000);
-    }
-    return now_ns;
-}
 
 }  // namespace
 
@@ -62,8 +42,7 @@ std::string UdpCommandReceiver::name() const {
 void UdpCommandReceiver::start() {
     socket_ = open_udp(parse_ipv4(config_.address, "commands.udp.address"),
                        static_cast<std::uint16_t>(config_.port));
-    const int on = 1;
-    setsockopt(socket_.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+    ask_for_arrivals(socket_.get());
     stopping_ = false;
     thread_ = std::thread([this] { run(); });
 }

@@ -2,6 +2,7 @@
 // The camera's live settings and its trigger input, as commands and camera interfaces (GenICam) see them.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,9 +12,26 @@
 
 namespace hilcam {
 
-// The source that starts a frame in triggered mode. Line0 is the camera's trigger wire, which the command
-// `expose` drives.
-enum class TriggerSource : std::uint8_t { kSoftware, kLine0, kAction1 };
+// The source that starts a frame in triggered mode. Line0 to Line7 are inputs (io/lines); Line0 is the wire
+// on which the command `expose` gives a pulse.
+enum class TriggerSource : std::uint8_t {
+    kSoftware,
+    kLine0,
+    kAction1,
+    kLine1,
+    kLine2,
+    kLine3,
+    kLine4,
+    kLine5,
+    kLine6,
+    kLine7
+};
+// The edge of a line that is a trigger (SFNC TriggerActivation).
+enum class TriggerActivation : std::uint8_t { kRisingEdge, kFallingEdge, kAnyEdge };
+// SFNC TriggerOverlap: a trigger may begin an exposure while the frame before is read out, or not.
+enum class TriggerOverlap : std::uint8_t { kOff, kReadOut };
+// SFNC ExposureMode: an exposure is ended by its time, or by the inactive edge of the trigger's line.
+enum class ExposureMode : std::uint8_t { kTimed, kTriggerWidth };
 
 struct CameraSettings {
     double exposure_s = 0;
@@ -31,6 +49,11 @@ struct CameraSettings {
     TestPattern test_pattern = TestPattern::kOff;
     bool reverse_x = false, reverse_y = false;
     std::int64_t binning_x = 1, binning_y = 1;
+    TriggerActivation trigger_activation = TriggerActivation::kRisingEdge;
+    std::int64_t trigger_divider = 1;  // each n-th active edge of a line is a trigger
+    TriggerOverlap trigger_overlap = TriggerOverlap::kReadOut;
+    // kTriggerWidth holds for single frames that a line triggers; all others last exposure_s.
+    ExposureMode exposure_mode = ExposureMode::kTimed;
 };
 
 // A change of settings: members that hold a value change, the others keep theirs.
@@ -43,6 +66,10 @@ struct SettingsChange {
     std::optional<TestPattern> test_pattern{};
     std::optional<bool> reverse_x{}, reverse_y{};
     std::optional<std::int64_t> binning_x{}, binning_y{};
+    std::optional<TriggerActivation> trigger_activation{};
+    std::optional<std::int64_t> trigger_divider{};
+    std::optional<TriggerOverlap> trigger_overlap{};
+    std::optional<ExposureMode> exposure_mode{};
 };
 
 // Calls visit(std::string_view name, &CameraSettings::..., &SettingsChange::...) for every setting.
@@ -66,6 +93,10 @@ constexpr void visit_settings(const Visit& visit) {
     visit("reverse_y", &S::reverse_y, &C::reverse_y);
     visit("binning_x", &S::binning_x, &C::binning_x);
     visit("binning_y", &S::binning_y, &C::binning_y);
+    visit("trigger_activation", &S::trigger_activation, &C::trigger_activation);
+    visit("trigger_divider", &S::trigger_divider, &C::trigger_divider);
+    visit("trigger_overlap", &S::trigger_overlap, &C::trigger_overlap);
+    visit("exposure_mode", &S::exposure_mode, &C::exposure_mode);
 }
 
 // Sets every setting that the change holds.
@@ -95,6 +126,7 @@ struct CameraLimits {
     double min_frame_rate_hz = 0, max_frame_rate_hz = 0;
     double max_trigger_delay_s = 10;
     std::int64_t max_burst_frames = 65535;
+    std::int64_t max_trigger_divider = 65535;
     std::int64_t max_binning = 1;  // largest binning along each axis, a power of 2; 1: no binning
     double temperature_c = 0;      // detector temperature
     // True for what the camera sets itself (by a sequence or a line-scan shutter): it refuses any change of
@@ -103,7 +135,18 @@ struct CameraLimits {
     bool has_automatic_exposure = false;
     bool reversible = false;  // ReverseX, ReverseY
     bool lockstep = false;    // one frame per `expose`, in simulated time; `triggered` cannot change
+
+    // ExposureMode TriggerWidth: the exposure is the client's, and the machine's clock counts.
+    bool has_trigger_width() const { return !exposure_is_own && !lockstep; }
+    // TriggerOverlap Off; the frames of a line scanner join without a gap.
+    bool can_wait_for_readout() const { return !frame_rate_is_own; }
 };
+
+// True when the width of a line's pulse is the exposure. Frames of bursts last exposure_s.
+inline bool exposes_by_width(const CameraSettings& s) {
+    return s.exposure_mode == ExposureMode::kTriggerWidth && s.triggered && s.burst_frames == 1 &&
+           s.trigger_source != TriggerSource::kSoftware && s.trigger_source != TriggerSource::kAction1;
+}
 
 enum class TriggerResult : std::uint8_t {
     kTaken,
@@ -116,6 +159,9 @@ enum class TriggerResult : std::uint8_t {
 struct TriggerOrder {
     TriggerSource source = TriggerSource::kSoftware;
     std::int64_t at_monotonic_ns = 0;  // 0: now
+    // ExposureMode TriggerWidth: when the line became inactive again. The exposure is as long as the pulse,
+    // within the camera's limits. 0: the exposure is that of the settings.
+    std::int64_t until_monotonic_ns = 0;
     // Lockstep: the middle of the exposure; ns = 0: one frame period after the previous frame. Otherwise the
     // earliest simulated time of the trigger; ns = 0: no such limit.
     TimeTai at_simulated;
@@ -140,6 +186,17 @@ class CameraControl {
     // Makes the whole change, or none of it: false when a value is outside its limits.
     virtual bool change(const SettingsChange& change) = 0;
     virtual TriggerResult trigger(const TriggerOrder& order) = 0;
+    // Returns from when on a trigger begins a frame and is not missed [CLOCK_MONOTONIC ns]; kNeverReady_ns:
+    // the camera does not listen to triggers.
+    static constexpr std::int64_t kNeverReady_ns = std::numeric_limits<std::int64_t>::max();
+    virtual std::int64_t trigger_ready_ns() const {
+        const CameraSettings now = settings();
+        return now.running && now.triggered ? 0 : kNeverReady_ns;
+    }
+    // Returns the machine's time when the camera's clock has counted that long from an instant on.
+    virtual std::int64_t monotonic_after(std::int64_t from_monotonic_ns, double camera_s) const {
+        return from_monotonic_ns + static_cast<std::int64_t>(camera_s * 1e9);
+    }
 };
 
 }  // namespace hilcam

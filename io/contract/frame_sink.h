@@ -78,11 +78,18 @@ struct SinkNote {
     bool warning = false;
 };
 
-// An event of the camera that comes before its frame does.
+// An event of the camera that comes before its frame does, or an edge of its line 0.
 struct CameraEvent {
-    enum class Kind : std::uint8_t { kExposureStart, kExposureEnd, kTriggerMissed } kind;
-    std::uint64_t frame = 0;  // 0: no frame (a missed trigger)
+    enum class Kind : std::uint8_t {
+        kExposureStart,
+        kExposureEnd,
+        kTriggerMissed,
+        kLine0Rises,
+        kLine0Falls
+    } kind;
+    std::uint64_t frame = 0;  // 0: no frame (a missed trigger, an edge)
     std::int64_t monotonic_ns = 0;
+    std::int64_t end_ns = 0;  // kExposureStart: the exposure's end, CLOCK_MONOTONIC
 };
 
 class FrameSink {
@@ -125,6 +132,7 @@ class DeliveryListener {
 };
 
 class CameraControl;
+class CameraLines;
 class FaultBoard;
 class FrameFates;
 class LightPartSource;
@@ -136,6 +144,7 @@ struct SinkContext {
     DeliveryListener* listener = nullptr;    // may be null
     FrameFates* fates = nullptr;             // takes the fate of frames' files; may be null
     LightPartSource* light_parts = nullptr;  // renders single parts of a frame's light; may be null
+    CameraLines* lines = nullptr;            // the camera's lines; may be null
 };
 
 }  // namespace hilcam

@@ -32,6 +32,19 @@ std::string own(const char* name, bool asked, bool is_own, const char* why) {
     return std::string(name) + ": the camera sets it itself (" + why + ")";
 }
 
+// TriggerWidth needs a pulse, and an exposure that the camera leaves to it.
+std::string no_trigger_width(const SettingsChange& c, CameraSettings now, const CameraLimits& l) {
+    apply(c, now);
+    if (now.exposure_mode != ExposureMode::kTriggerWidth) return {};
+    const std::string key = "exposure_mode: trigger_width ";
+    if (l.lockstep) return key + "needs real time, and this is lockstep";
+    if (l.exposure_is_own) return key + "needs an exposure that the camera does not set itself";
+    if (now.automatic_exposure) return key + "and automatic_exposure exclude each other";
+    if (now.trigger_activation == TriggerActivation::kAnyEdge)
+        return key + "and trigger_activation any_edge exclude each other";
+    return {};
+}
+
 }  // namespace
 
 std::string refusal_of(const SettingsChange& c, const CameraSettings& now, const CameraLimits& l) {
@@ -53,6 +66,11 @@ std::string refusal_of(const SettingsChange& c, const CameraSettings& now, const
              lacking("automatic_exposure", c.automatic_exposure, l.has_automatic_exposure),
              lacking("reverse_x", c.reverse_x, l.reversible),
              lacking("reverse_y", c.reverse_y, l.reversible),
+             outside("trigger_divider", c.trigger_divider, 1, static_cast<double>(l.max_trigger_divider)),
+             no_trigger_width(c, now, l),
+             c.trigger_overlap == TriggerOverlap::kOff && !l.can_wait_for_readout()
+                 ? std::string("trigger_overlap: a line scanner's frames join without a gap")
+                 : std::string(),
          })
         if (!line.empty()) return line;
     if (c.triggered && l.lockstep) return "triggered: in lockstep each 'expose' takes a frame, and stays so";

@@ -82,6 +82,7 @@ void validate(const GigeConfig& c) {
 struct GigeSink::Implementation {
     GigeConfig config;
     CameraControl& camera;
+    CameraLines* lines;
     FaultBoard& faults;
     NetInterface net;
     CameraClock clock;
@@ -117,6 +118,7 @@ struct GigeSink::Implementation {
                    std::size_t payload_bytes)
         : config(c),
           camera(context.camera),
+          lines(context.lines),
           faults(context.faults),
           net(find_interface(c.interface)),
           clock(c.clock, net),
@@ -158,7 +160,7 @@ void GigeSink::Implementation::open() {
         GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
                      first_packet_bytes(config, net), 0, config.multipart, config.lines, config.clock.source,
                      config.clock.enable_ptp},
-        camera, faults, effects());
+        camera, faults, effects(), lines);
     device->set_ports(sender.port(), sockets->message_port());
 }
 

@@ -16,7 +16,11 @@ constexpr std::size_t kMaxFields = 32;
 constexpr int kLongestSide_px = 1 << 20;
 constexpr int kMaxStep = 256;
 
-constexpr std::array<std::string_view, 3> kSources = {"software", "line0", "action1"};
+constexpr std::array<std::string_view, 10> kSources = {"software", "line0", "action1", "line1", "line2",
+                                                       "line3",    "line4", "line5",   "line6", "line7"};
+constexpr std::array<std::string_view, 3> kActivations = {"rising_edge", "falling_edge", "any_edge"};
+constexpr std::array<std::string_view, 2> kOverlaps = {"off", "read_out"};
+constexpr std::array<std::string_view, 2> kExposureModes = {"timed", "trigger_width"};
 enum class NumbersFormat { kPng, kTiff };
 constexpr std::array<std::string_view, 2> kPictureFormats = {"png", "tiff"};
 constexpr std::array<std::string_view, 6> kPatternWords = {
@@ -75,6 +79,15 @@ void parse_setting(std::string_view key, std::string_view text, std::int64_t& va
 }
 void parse_setting(std::string_view key, std::string_view text, TriggerSource& value) {
     value = parse_word<TriggerSource>(key, text, kSources);
+}
+void parse_setting(std::string_view key, std::string_view text, TriggerActivation& value) {
+    value = parse_word<TriggerActivation>(key, text, kActivations);
+}
+void parse_setting(std::string_view key, std::string_view text, TriggerOverlap& value) {
+    value = parse_word<TriggerOverlap>(key, text, kOverlaps);
+}
+void parse_setting(std::string_view key, std::string_view text, ExposureMode& value) {
+    value = parse_word<ExposureMode>(key, text, kExposureModes);
 }
 void parse_setting(std::string_view key, std::string_view text, TestPattern& value) {
     value = parse_word<TestPattern>(key, text, kPatternWords);
@@ -229,6 +242,11 @@ FaultRequest parse_fault_request(std::string_view body) {
 }
 
 std::string_view name_of(TriggerSource source) { return kSources[static_cast<std::size_t>(source)]; }
+std::string_view name_of(TriggerActivation activation) {
+    return kActivations[static_cast<std::size_t>(activation)];
+}
+std::string_view name_of(TriggerOverlap overlap) { return kOverlaps[static_cast<std::size_t>(overlap)]; }
+std::string_view name_of(ExposureMode mode) { return kExposureModes[static_cast<std::size_t>(mode)]; }
 std::string_view name_of(TestPattern pattern) { return kPatternWords[static_cast<std::size_t>(pattern)]; }
 
 bool is_own_host(std::string_view host, std::string_view machine_name) {

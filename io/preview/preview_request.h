@@ -54,6 +54,9 @@ struct FaultRequest {
 FaultRequest parse_fault_request(std::string_view body);
 
 std::string_view name_of(TriggerSource source);
+std::string_view name_of(TriggerActivation activation);
+std::string_view name_of(TriggerOverlap overlap);
+std::string_view name_of(ExposureMode mode);
 std::string_view name_of(TestPattern pattern);
 
 // True when a request with this Host header may be answered. A web site can make its own name resolve to this

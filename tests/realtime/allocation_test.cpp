@@ -70,6 +70,13 @@ TEST_F(Allocation, NorWithASmallObject) {
             << distance_m;
 }
 
+TEST_F(Allocation, NorWithLinesThatFollowIt) {
+    EXPECT_EQ(allocations(
+                  {"lines={outputs: [{line: 1, source: exposure_active}, {line: 2, source: frame_active}]}"},
+                  Loop::kTold),
+              0);
+}
+
 TEST_F(Allocation, NorWithAKeptPictureOfTheEarth) {
     EXPECT_EQ(
         allocations({"quality.earth_impostor=true", "camera_pose.position_m=[0, 0, 0]",

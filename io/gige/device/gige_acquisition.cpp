@@ -69,7 +69,13 @@ void GigeAcquisition::stop() {
 void GigeAcquisition::add_exposure() {
     GigeRegisterFile& r = core_.registers;
     const auto settings = [this] { return core_.camera.settings(); };
-    r.constant(reg::kExposureMode, 1);  // Timed
+    r.number(
+        reg::kExposureMode,
+        [settings] { return kTimed + static_cast<std::uint64_t>(settings().exposure_mode); },
+        [this](std::uint64_t mode) {
+            if (mode < kTimed || mode > kTimed + 1) return Status::kInvalidParameter;
+            return core_.change({.exposure_mode = static_cast<ExposureMode>(mode - kTimed)});
+        });
     r.number(
         reg::kExposureAuto,
         [this, settings] {

@@ -32,6 +32,7 @@ class GigeAcquisition {
 
     gvcp::Status set_automatic(std::uint64_t mode);
 
+    static constexpr std::uint64_t kTimed = 1;  // SFNC ExposureMode
     enum ExposureAuto : std::uint64_t { kOff, kContinuous, kOnce };
     GigeCore& core_;
     std::function<void()> ended_;

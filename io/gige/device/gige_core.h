@@ -13,6 +13,7 @@
 #include "io/gige/device/gige_register_file.h"
 #include "io/gige/device/gvcp.h"
 #include "io/gige/stream/gige_stream.h"
+#include "io/lines/camera_lines.h"
 #include "io/ptp/device_clock.h"
 #include "io/ptp/device_clock_config.h"
 #include "io/ptp/ptp_data_set.h"
@@ -106,9 +107,11 @@ struct GigeSettings {
 };
 
 struct GigeCore {
-    GigeCore(const GigeIdentity& id, CameraControl& the_camera, FaultBoard& the_faults, GigeEffects e)
+    GigeCore(const GigeIdentity& id, CameraControl& the_camera, CameraLines& the_lines,
+             FaultBoard& the_faults, GigeEffects e)
         : identity(id),
           camera(the_camera),
+          lines(the_lines),
           faults(the_faults),
           effects(std::move(e)),
           limits(the_camera.limits()),
@@ -118,6 +121,7 @@ struct GigeCore {
 
     GigeIdentity identity;
     CameraControl& camera;
+    CameraLines& lines;
     FaultBoard& faults;
     GigeEffects effects;
     const CameraLimits limits;

@@ -28,8 +28,9 @@ std::span<const std::uint8_t> text_bytes(const std::string& text) {
 }  // namespace
 
 GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoard& board,
-                         GigeEffects effects)
-    : core(id, camera, board, std::move(effects)),
+                         GigeEffects effects, CameraLines* the_lines)
+    : own_lines(the_lines ? nullptr : std::make_unique<CameraLines>(camera)),
+      core(id, camera, the_lines ? *the_lines : *own_lines, board, std::move(effects)),
       bootstrap(core,
                 [this](std::uint32_t before) {
                     const std::uint32_t changed = before ^ core.gvcp_config;
@@ -44,6 +45,7 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
       clock(core),
       image(core),
       trigger(core),
+      lines(core),
       actions(core, [this] { messages.on_event(gvcp::Event::kActionLate); }),
       faults(core),
       user_sets(core,
@@ -52,7 +54,8 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
                     trigger.rearm();
                     core.publish_stream();
                 }),
-      xml(padded(genicam_xml(gige_features(core.limits, id.multipart, id.more_lines), id.model))),
+      xml(padded(
+          genicam_xml(gige_features(core.limits, id.multipart, id.more_lines, core.lines.plan()), id.model))),
       zip(zip_of("hilcam.xml", xml)) {
     bootstrap.add_description(text_bytes(xml), zip);
     add_device_registers();
@@ -96,8 +99,9 @@ std::uint64_t GigeDevice::Parts::fault_index(std::uint16_t id) {
         last_id = id, last_from = core.from, attempt = 0;
     return attempt << 16 | id;
 }
-GigeDevice::GigeDevice(const GigeIdentity& id, CameraControl& camera, FaultBoard& faults, Effects effects)
-    : parts_(std::make_unique<Parts>(id, camera, faults, std::move(effects))) {}
+GigeDevice::GigeDevice(const GigeIdentity& id, CameraControl& camera, FaultBoard& faults, Effects effects,
+                       CameraLines* lines)
+    : parts_(std::make_unique<Parts>(id, camera, faults, std::move(effects), lines)) {}
 GigeDevice::~GigeDevice() = default;
 
 void GigeDevice::set_ports(std::uint16_t stream, std::uint16_t message) {

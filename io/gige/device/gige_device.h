@@ -7,8 +7,8 @@
 // again. An unknown or malformed request gets a status that says so; bytes that are not GVCP get no answer.
 //
 // Its parts are gige_bootstrap (identity, capabilities), gige_access (control), gige_clock, gige_transport
-// (the stream channel), gige_image, gige_acquisition, gige_trigger, gige_messages (events), gige_actions,
-// gige_user_sets and gige_fault_registers. They share gige_core.
+// (the stream channel), gige_image, gige_acquisition, gige_trigger, gige_lines, gige_messages (events),
+// gige_actions, gige_user_sets and gige_fault_registers. They share gige_core.
 
 #include <cstdint>
 #include <memory>
@@ -26,7 +26,9 @@ class GigeDevice {
   public:
     using Effects = GigeEffects;
 
-    GigeDevice(const GigeIdentity& identity, CameraControl& camera, FaultBoard& faults, Effects effects);
+    // lines: the camera's lines; null: it has Line0, on which nothing happens.
+    GigeDevice(const GigeIdentity& identity, CameraControl& camera, FaultBoard& faults, Effects effects,
+               CameraLines* lines = nullptr);
     ~GigeDevice();
 
     // Sets the ports that the kernel gave to the sockets of stream and message channel; before the first

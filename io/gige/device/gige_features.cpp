@@ -16,10 +16,10 @@ void FeatureTable::add(const char* category, std::vector<Feature> rows) {
 }
 
 FeatureTable gige_features(const CameraLimits& limits, bool multipart,
-                           const std::vector<std::string>& more_lines) {
+                           const std::vector<std::string>& more_lines, const LinePlan& plan) {
     std::vector<std::string> lines = {"Line0"};
     lines.insert(lines.end(), more_lines.begin(), more_lines.end());
-    FeatureTable table(limits, multipart, std::move(lines));
+    FeatureTable table(limits, multipart, std::move(lines), plan);
     add_device_features(table);
     add_image_features(table);
     add_acquisition_features(table);

@@ -10,6 +10,7 @@
 
 #include "io/contract/camera_control.h"
 #include "io/gige/device/gige_registers.h"
+#include "io/lines/camera_lines.h"
 
 namespace hilcam {
 
@@ -139,11 +140,12 @@ struct FeatureFormula {
 };
 
 struct FeatureTable {
-    FeatureTable(const CameraLimits& l, bool has_parts, std::vector<std::string> line_names)
-        : limits(l), multipart(has_parts), lines(std::move(line_names)) {}
+    FeatureTable(const CameraLimits& l, bool has_parts, std::vector<std::string> line_names, LinePlan own)
+        : limits(l), multipart(has_parts), lines(std::move(line_names)), plan(own) {}
     const CameraLimits limits;
     const bool multipart;
     const std::vector<std::string> lines;  // names of the trigger input, Line0 and others
+    const LinePlan plan;
     std::vector<Feature> features;
     std::vector<FeaturePort> ports;
     std::vector<FeatureFormula> formulas;
@@ -153,7 +155,10 @@ struct FeatureTable {
 
 // Returns the features in the order of the description. more_lines: names of the trigger input besides Line0.
 FeatureTable gige_features(const CameraLimits& limits, bool multipart,
-                           const std::vector<std::string>& more_lines = {});
+                           const std::vector<std::string>& more_lines = {}, const LinePlan& plan = {});
+
+// Returns the entries of the camera's lines besides Line0, for selectors.
+std::vector<EnumEntry> own_lines(const LinePlan& plan, bool with_outputs);
 
 // Each adds the features of one concept.
 void add_device_features(FeatureTable& table);

@@ -18,10 +18,11 @@ std::vector<EnumEntry> pixel_formats(const CameraLimits& l) {
     return entries;
 }
 
-// Returns Software, the trigger input by its first name, the action; then the input's other names.
-std::vector<EnumEntry> trigger_sources(const std::vector<std::string>& lines) {
+// Returns Software, Line0, the action; then Line0's other names, and the other inputs.
+std::vector<EnumEntry> trigger_sources(const FeatureTable& t) {
     std::vector<EnumEntry> entries = counted({"Software", "Line0", "Action1"});
-    for (std::size_t i = 1; i < lines.size(); ++i) entries.push_back({lines[i], entries.size()});
+    for (std::size_t i = 1; i < t.lines.size(); ++i) entries.push_back({t.lines[i], entries.size()});
+    for (const EnumEntry& line : own_lines(t.plan, false)) entries.push_back(line);
     return entries;
 }
 
@@ -133,8 +134,12 @@ void add_acquisition_features(FeatureTable& t) {
                 .between(0, l.max_frame_rate_hz)
                 .unit("Hz")
                 .read_only(),
-            enumeration("ExposureMode", r::kExposureMode, {{"Timed", 1}}, "What ends the exposure")
-                .read_only(),
+            enumeration("ExposureMode", r::kExposureMode,
+                        l.has_trigger_width() ? std::vector<EnumEntry>{{"Timed", 1}, {"TriggerWidth", 2}}
+                                              : std::vector<EnumEntry>{{"Timed", 1}},
+                        "What ends the exposure; TriggerWidth: the end of the pulse on a line that triggers "
+                        "single frames")
+                .read_only(!l.has_trigger_width()),
             enumeration("ExposureAuto", r::kExposureAuto,
                         l.has_automatic_exposure ? counted({"Off", "Continuous", "Once"}) : counted({"Off"}),
                         "Whether the camera chooses its exposure; Once: until it has found it, then Off"),
@@ -147,17 +152,24 @@ void add_acquisition_features(FeatureTable& t) {
                         counted({"FrameStart", "FrameBurstStart", "AcquisitionStart"}),
                         "What a trigger starts; one of them can be on. AcquisitionStart: the stream's frames "
                         "wait for one trigger")
-                .selects(
-                    {"TriggerMode", "TriggerSource", "TriggerSoftware", "TriggerActivation", "TriggerDelay"}),
+                .selects({"TriggerMode", "TriggerSource", "TriggerSoftware", "TriggerActivation",
+                          "TriggerDivider", "TriggerDelay", "TriggerOverlap"}),
             enumeration("TriggerMode", r::kTriggerMode, counted({"Off", "On"}),
                         "Whether frames wait for a trigger"),
-            enumeration("TriggerSource", r::kTriggerSource, trigger_sources(t.lines),
-                        "Where triggers come from"),
+            enumeration("TriggerSource", r::kTriggerSource, trigger_sources(t), "Where triggers come from"),
             command("TriggerSoftware", r::kTriggerSoftware, "A trigger"),
-            enumeration("TriggerActivation", r::kTriggerActivation, counted({"RisingEdge"}), "Of a line"),
+            enumeration("TriggerActivation", r::kTriggerActivation,
+                        counted({"RisingEdge", "FallingEdge", "AnyEdge"}), "Of a line"),
+            integer("TriggerDivider", r::kTriggerDivider, "Each n-th edge of a line is a trigger")
+                .between(1, static_cast<double>(l.max_trigger_divider)),
             real("TriggerDelay", r::kTriggerDelay_us, "From a trigger to its first frame")
                 .between(0, l.max_trigger_delay_s * 1e6)
                 .unit("us"),
+            enumeration("TriggerOverlap", r::kTriggerOverlap,
+                        l.can_wait_for_readout() ? counted({"Off", "ReadOut"})
+                                                 : std::vector<EnumEntry>{{"ReadOut", 1}},
+                        "Off: missed before the readout's end")
+                .read_only(!l.can_wait_for_readout()),
         });
     t.formulas.push_back(
         {"AcquisitionFrameRateFixed", "ENABLED = 0", "ENABLED", "AcquisitionFrameRateEnableReg"});
@@ -174,21 +186,6 @@ void add_acquisition_features(FeatureTable& t) {
                   .between(0, l.max_black_level_dn)
                   .unit("DN"),
           });
-}
-
-void add_line_features(FeatureTable& t) {
-    std::vector<EnumEntry> lines;
-    for (const std::string& name : t.lines) lines.push_back({name, lines.size()});
-    t.add(
-        "DigitalIOControl",
-        {
-            enumeration("LineSelector", r::kLineSelector, std::move(lines),
-                        "A name of the trigger input, which the command expose drives")
-                .selects({"LineMode", "LineStatus"}),
-            enumeration("LineMode", r::kLineMode, counted({"Input"}), "Which way it goes"),
-            boolean("LineStatus", r::kLineStatus, "Its level: off, as its pulses have no length").read_only(),
-            integer("LineStatusAll", r::kLineStatusAll, "All levels").between(0, 0).read_only(),
-        });
 }
 
 // --- chunks

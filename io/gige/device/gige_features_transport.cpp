@@ -202,7 +202,9 @@ void add_event_features(FeatureTable& t) {
         t.add("EventControl", {fixed_number(name.c_str(), event.id, "Its number"),
                                value("Timestamp", "When it happened, device clock", "EventTimePlace")});
         if (event.id >= gvcp::Event::kFirstOfDevice)
-            t.add("EventControl", {value("FrameID", "Of the frame; 0: of none", "EventDataPlace")});
+            t.add("EventControl",
+                  {value("FrameID", event.of_frame ? "Of the frame; 0: of none" : "0: no frame",
+                         "EventDataPlace")});
     }
 }
 

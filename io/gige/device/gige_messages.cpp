@@ -57,7 +57,7 @@ bool GigeMessages::wanted(std::uint16_t id) const {
 }
 
 void GigeMessages::on_event(const CameraEvent& event, std::uint64_t block) {
-    const std::uint16_t id = kGigeEvents[static_cast<std::size_t>(event.kind)].id;
+    const std::uint16_t id = kGigeEvents[place_of(event.kind)].id;
     if (!wanted(id)) return;
     const std::uint64_t time = core_.device_ns(event.monotonic_ns);
     std::array<std::uint8_t, kEventDataBytes> data;

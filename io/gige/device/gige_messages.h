@@ -16,14 +16,22 @@ struct GigeEvent {
     const char* name;  // SFNC
     std::uint16_t id;
     bool on_at_power_up;
+    bool of_frame = true;  // false: no frame belongs to it
 };
-inline constexpr std::array<GigeEvent, 5> kGigeEvents = {{
+inline constexpr std::array<GigeEvent, 7> kGigeEvents = {{
     {"ExposureStart", gvcp::Event::kFirstOfDevice + 1, false},
     {"ExposureEnd", gvcp::Event::kFirstOfDevice + 2, false},
     {"FrameTriggerMissed", gvcp::Event::kFirstOfDevice + 3, false},
     {"PrimaryApplicationSwitch", gvcp::Event::kPrimarySwitch, true},
     {"ActionLate", gvcp::Event::kActionLate, true},
+    {"Line0RisingEdge", gvcp::Event::kFirstOfDevice + 4, false, false},
+    {"Line0FallingEdge", gvcp::Event::kFirstOfDevice + 5, false, false},
 }};
+// Returns the place of a camera's event in kGigeEvents.
+constexpr std::size_t place_of(CameraEvent::Kind kind) {
+    const auto i = static_cast<std::size_t>(kind);
+    return kind < CameraEvent::Kind::kLine0Rises ? i : i + 2;
+}
 inline constexpr std::size_t kEventDataBytes = 16;
 
 class GigeMessages {

@@ -1,6 +1,7 @@
 #pragma once
 // The parts of a GigeDevice, only for its own .cpp files.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "io/gige/device/gige_device.h"
 #include "io/gige/device/gige_fault_registers.h"
 #include "io/gige/device/gige_image.h"
+#include "io/gige/device/gige_lines.h"
 #include "io/gige/device/gige_messages.h"
 #include "io/gige/device/gige_transport.h"
 #include "io/gige/device/gige_trigger.h"
@@ -27,6 +29,7 @@ struct GigeDevice::Answer {
 };
 
 struct GigeDevice::Parts {
+    std::unique_ptr<CameraLines> own_lines;  // where the camera has none
     GigeCore core;
     GigeBootstrap bootstrap;
     GigeAcquisition acquisition;
@@ -36,6 +39,7 @@ struct GigeDevice::Parts {
     GigeClock clock;
     GigeImage image;
     GigeTrigger trigger;
+    GigeLines lines;
     GigeActions actions;
     GigeFaultRegisters faults;
     GigeUserSets user_sets;  // after all parts with settings
@@ -52,7 +56,8 @@ struct GigeDevice::Parts {
     std::uint16_t last_id = 0;
     std::uint64_t attempt = 0;
 
-    Parts(const GigeIdentity& id, CameraControl& camera, FaultBoard& board, GigeEffects effects);
+    Parts(const GigeIdentity& id, CameraControl& camera, FaultBoard& board, GigeEffects effects,
+          CameraLines* lines);
     void add_device_registers();
     void left();  // the controller is gone
     // Returns a request's index for faults, from its id and its number of attempts.

@@ -90,6 +90,17 @@ inline constexpr std::uint32_t kActionSelector = 0xA360, kInterfaceSelector = 0x
                                kStreamSelector = 0xA368;
 // Statistics: 64-bit, in the order of GigeStreamStatistics.
 inline constexpr std::uint32_t kStatistics = 0xA400;
+// Lines, counters, timers.
+inline constexpr std::uint32_t kTriggerDivider = 0xA600, kTriggerOverlap = 0xA604, kLineFormat = 0xA608,
+                               kLineInverter = 0xA60C, kLineSource = 0xA610, kUserOutputSelector = 0xA614,
+                               kUserOutputValue = 0xA618, kUserOutputValueAll = 0xA61C;
+inline constexpr std::uint32_t kCounterSelector = 0xA640, kCounterEventSource = 0xA644,
+                               kCounterEventActivation = 0xA648, kCounterResetSource = 0xA64C,
+                               kCounterReset = 0xA650, kCounterValue = 0xA654, kCounterValueAtReset = 0xA658,
+                               kCounterDuration = 0xA65C, kCounterStatus = 0xA660;
+inline constexpr std::uint32_t kTimerSelector = 0xA680, kTimerTriggerSource = 0xA684,
+                               kTimerTriggerActivation = 0xA688, kTimerReset = 0xA68C, kTimerStatus = 0xA690,
+                               kTimerDuration_us = 0xA698, kTimerDelay_us = 0xA6A0, kTimerValue_us = 0xA6A8;
 // PTP: what PtpDataSetLatch latches. Those from kPtpOffset_ns on have 8 bytes.
 inline constexpr std::uint32_t kPtpDataSetLatch = 0xA700, kPtpLatchedStatus = 0xA704,
                                kPtpServoStatus = 0xA708, kPtpTimeScale = 0xA70C, kPtpUtcOffset_s = 0xA710,

@@ -1,5 +1,6 @@
 #include "io/gige/device/gige_trigger.h"
 
+#include "io/gige/device/gige_lines.h"
 #include "io/gige/device/gige_registers.h"
 
 namespace hilcam {
@@ -23,7 +24,22 @@ GigeTrigger::GigeTrigger(GigeCore& core) : core_(core) {
         [this](std::uint64_t v) { return v > 1 ? Status::kInvalidParameter : set_mode(v != 0); });
     r.number(
         reg::kTriggerSource, [this] { return source(); }, [this](std::uint64_t v) { return set_source(v); });
-    r.variable(reg::kTriggerActivation, activation_, {0, 0});
+    r.number(
+        reg::kTriggerActivation,
+        [settings] { return static_cast<std::uint64_t>(settings().trigger_activation); },
+        [this](std::uint64_t v) {
+            if (v > static_cast<std::uint64_t>(TriggerActivation::kAnyEdge)) return Status::kInvalidParameter;
+            return core_.change({.trigger_activation = static_cast<TriggerActivation>(v)});
+        });
+    r.number(
+        reg::kTriggerDivider, [settings] { return static_cast<std::uint64_t>(settings().trigger_divider); },
+        [this](std::uint64_t v) { return core_.change({.trigger_divider = static_cast<std::int64_t>(v)}); });
+    r.number(
+        reg::kTriggerOverlap, [settings] { return static_cast<std::uint64_t>(settings().trigger_overlap); },
+        [this](std::uint64_t v) {
+            if (v > static_cast<std::uint64_t>(TriggerOverlap::kReadOut)) return Status::kInvalidParameter;
+            return core_.change({.trigger_overlap = static_cast<TriggerOverlap>(v)});
+        });
     r.real(
         reg::kTriggerDelay_us, [settings] { return settings().trigger_delay_s * 1e6; },
         [this](double us) { return core_.change({.trigger_delay_s = us * 1e-6}); });
@@ -31,26 +47,23 @@ GigeTrigger::GigeTrigger(GigeCore& core) : core_(core) {
     r.number(
         reg::kBurstFrameCount, [this] { return burst_count(); },
         [this](std::uint64_t v) { return set_burst_count(v); });
-    add_lines();
 }
 
-// Adds the trigger input under each of its names. Its pulses have no length, so its level is always low.
-void GigeTrigger::add_lines() {
-    GigeRegisterFile& r = core_.registers;
-    const auto names = static_cast<std::uint32_t>(core_.identity.more_lines.size());
-    r.variable(reg::kLineSelector, line_selector_, {0, names});
-    r.variable(reg::kLineMode, line_mode_, {0, 0});  // input
-    r.constant(reg::kLineStatus, 0);
-    r.constant(reg::kLineStatusAll, 0);
-}
-
-// Sources beyond the camera's own are further names of its line.
+// Sources beyond the camera's first three are further names of Line0; those from kFirstOwn on are lines.
 std::uint64_t GigeTrigger::source() const {
-    const auto own = static_cast<std::uint64_t>(core_.camera.settings().trigger_source);
+    const TriggerSource now = core_.camera.settings().trigger_source;
+    if (now >= TriggerSource::kLine1) return GigeLines::kFirstOwn + line_of(now);
+    const auto own = static_cast<std::uint64_t>(now);
     return own == kLine0 && core_.settings.line > 0 ? kLastSource + core_.settings.line : own;
 }
 
 Status GigeTrigger::set_source(std::uint64_t wanted) {
+    if (wanted > GigeLines::kFirstOwn) {
+        const std::uint64_t line = wanted - GigeLines::kFirstOwn;
+        const LinePlan& plan = core_.lines.plan();
+        if (line >= kLines || !plan.is_there[line] || plan.is_output[line]) return Status::kInvalidParameter;
+        return core_.change({.trigger_source = source_of_line(line)});
+    }
     if (wanted > kLastSource + core_.identity.more_lines.size()) return Status::kInvalidParameter;
     const std::uint64_t own = wanted > kLastSource ? kLine0 : wanted;
     const Status status = core_.change({.trigger_source = static_cast<TriggerSource>(own)});

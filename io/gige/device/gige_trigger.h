@@ -1,10 +1,11 @@
 #pragma once
-// Triggers as clients see them. The camera has one trigger input. TriggerMode can be on for FrameStart (each
-// trigger takes a frame), FrameBurstStart (each takes AcquisitionBurstFrameCount frames) or AcquisitionStart
-// (the first trigger after the stream's start takes a frame, and the camera then runs freely until the stream
-// ends). Switching one on switches the others off.
+// Triggers as clients see them. The camera has one trigger at a time. TriggerMode can be on for FrameStart
+// (each trigger takes a frame), FrameBurstStart (each takes AcquisitionBurstFrameCount frames) or
+// AcquisitionStart (the first trigger after the stream's start takes a frame, and the camera then runs freely
+// until the stream ends). Switching one on switches the others off.
 //
-// The input is Line0, with the additional names in the identity.
+// The input is Line0, with the additional names in the identity, or another input line of the scenario
+// (io/lines). TriggerActivation and TriggerDivider hold for lines.
 
 #include "io/contract/frame_sink.h"
 #include "io/gige/device/gige_core.h"
@@ -31,12 +32,9 @@ class GigeTrigger {
     std::uint64_t burst_count() const;
     gvcp::Status set_burst_count(std::uint64_t count);
     gvcp::Status software_trigger();
-    void add_lines();
 
     GigeCore& core_;
     std::uint32_t selector_ = kFrameStart;
-    std::uint32_t activation_ = 0;  // rising edge
-    std::uint32_t line_selector_ = 0, line_mode_ = 0;
     std::int64_t armed_ns_ = 0;  // exposures from then on were triggered
 };
 

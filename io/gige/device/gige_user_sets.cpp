@@ -9,7 +9,7 @@ using gvcp::Status;
 
 GigeUserSets::GigeUserSets(GigeCore& core, std::function<void()> loaded)
     : core_(core), loaded_(std::move(loaded)) {
-    sets_.fill({core.camera.settings(), core.settings});
+    sets_.fill({core.camera.settings(), core.settings, core.lines.settings()});
     GigeRegisterFile& r = core.registers;
     r.variable(reg::kUserSetSelector, selector_, {0, kSets - 1});
     r.variable(reg::kUserSetDefault, default_, {0, kSets - 1});
@@ -19,7 +19,7 @@ GigeUserSets::GigeUserSets(GigeCore& core, std::function<void()> loaded)
 
 Status GigeUserSets::save(std::size_t set) {
     if (set == 0) return Status::kWriteProtect;
-    sets_[set] = {core_.camera.settings(), core_.settings};
+    sets_[set] = {core_.camera.settings(), core_.settings, core_.lines.settings()};
     return Status::kSuccess;
 }
 
@@ -33,6 +33,7 @@ Status GigeUserSets::load(std::size_t set) {
     if (core_.limits.frame_rate_is_own) change.frame_rate_hz.reset();
     if (const Status status = core_.change(change); status != Status::kSuccess) return status;
     core_.settings = wanted.device;
+    core_.lines.change(wanted.lines, core_.now_ns);
     if (loaded_) loaded_();
     return Status::kSuccess;
 }
@@ -40,6 +41,7 @@ Status GigeUserSets::load(std::size_t set) {
 void GigeUserSets::reset() {
     if (load(default_) == Status::kSuccess) return;
     core_.settings = sets_[default_].device;
+    core_.lines.change(sets_[default_].lines, core_.now_ns);
     if (loaded_) loaded_();
 }
 

@@ -26,6 +26,7 @@ class GigeUserSets {
     struct Set {
         CameraSettings camera;
         GigeSettings device;
+        LineSettings lines;
     };
     GigeCore& core_;
     std::function<void()> loaded_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/support/plate.h"
 
@@ -19,6 +20,68 @@ TEST(LiveSettings, RefusesWhatIsOutsideAndTheLoopSeesTheRest) {
     EXPECT_FALSE(settings.change({.gain_db = std::nan("")}));
     EXPECT_TRUE(settings.change({.gain_db = 6}));
     EXPECT_EQ(settings.read_in_loop().gain_db, 6);
+}
+
+TEST(LiveSettings, AWidthNeedsAPulseAndAnExposureThatIsNotTheCameras) {
+    LiveSettings settings(CameraModel{});
+    ASSERT_TRUE(settings.change({.exposure_mode = ExposureMode::kTriggerWidth}));
+    EXPECT_FALSE(settings.change({.automatic_exposure = true}));
+    EXPECT_FALSE(settings.change({.trigger_activation = TriggerActivation::kAnyEdge}));
+    EXPECT_TRUE(settings.change({.trigger_activation = TriggerActivation::kFallingEdge}));
+    EXPECT_FALSE(settings.change({.trigger_divider = 0}));
+    EXPECT_FALSE(settings.change({.trigger_divider = 65536}));
+    LiveSettings lockstep(CameraModel{}, {.lockstep = true});
+    EXPECT_FALSE(lockstep.change({.exposure_mode = ExposureMode::kTriggerWidth}));
+    CameraModel stepping;
+    stepping.sequence.resize(2);
+    EXPECT_FALSE(LiveSettings(stepping).change({.exposure_mode = ExposureMode::kTriggerWidth}));
+}
+
+// Highest rate 50 Hz, exposure 30 ms: with ReadOut the camera is ready 30 ms after a trigger, with Off 50 ms.
+TEST(LiveSettings, WithoutOverlapATriggerWaitsForTheReadout) {
+    for (const TriggerOverlap overlap : {TriggerOverlap::kReadOut, TriggerOverlap::kOff}) {
+        CameraModel camera;
+        camera.frame_rate_range_hz = {1, 50};
+        camera.exposure_s = 0.03;
+        LiveSettings settings(camera, {.triggered = true});
+        EXPECT_EQ(settings.trigger_ready_ns(), 0);
+        ASSERT_TRUE(settings.change({.trigger_overlap = overlap}));
+        TriggerOrder order;
+        order.source = TriggerSource::kLine0;
+        order.at_monotonic_ns = monotonic_ns();
+        ASSERT_EQ(settings.trigger(order), TriggerResult::kTaken);
+        const std::int64_t length_ns = overlap == TriggerOverlap::kReadOut ? 30'000'000 : 50'000'000;
+        EXPECT_EQ(settings.trigger_ready_ns(), order.at_monotonic_ns + length_ns);
+        TriggerOrder next = order;
+        next.at_monotonic_ns += length_ns - 1;
+        EXPECT_EQ(settings.trigger(next), TriggerResult::kMissed);
+        next.at_monotonic_ns += 1;
+        EXPECT_EQ(settings.trigger(next), TriggerResult::kTaken);
+        settings.change({.triggered = false});
+        EXPECT_EQ(settings.trigger_ready_ns(), CameraControl::kNeverReady_ns);
+    }
+}
+
+TEST(LiveSettings, ATriggersExposureIsToldAtOnceAndTakenBackByAStop) {
+    CameraModel camera;
+    camera.exposure_s = 0.03;
+    LiveSettings settings(camera, {.triggered = true});
+    std::vector<std::pair<std::int64_t, std::int64_t>> told;
+    settings.on_exposure(
+        [&](std::int64_t begin_ns, std::int64_t end_ns) { told.emplace_back(begin_ns, end_ns); });
+    ASSERT_TRUE(settings.change({.trigger_delay_s = 0.5}));
+    TriggerOrder order;
+    order.source = TriggerSource::kLine0;
+    order.at_monotonic_ns = monotonic_ns();
+    ASSERT_EQ(settings.trigger(order), TriggerResult::kTaken);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_EQ(told[0].first, order.at_monotonic_ns + 500'000'000);
+    EXPECT_EQ(told[0].second, order.at_monotonic_ns + 530'000'000);
+    EXPECT_EQ(settings.trigger(order), TriggerResult::kMissed);
+    EXPECT_EQ(told.size(), 1u);
+    ASSERT_TRUE(settings.change({.running = false}));
+    ASSERT_EQ(told.size(), 2u);
+    EXPECT_EQ(told[1].first, 0);
 }
 
 TEST(SettingsHistory, EachHoldFromTheirInstantOnAndTheOldestBeforeAll) {

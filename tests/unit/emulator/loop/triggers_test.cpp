@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -82,6 +84,46 @@ TEST_F(FrameLoopTest, WhatIsDroppedKeepsNoTriggerOut) {
     EXPECT_TRUE(is_taken());
     ASSERT_TRUE(rig.collector.wait_for(1));
     rig.loop.stop();
+}
+
+// The frame is rendered when the pulse has ended, and shows its middle.
+TEST_F(FrameLoopTest, APulsesWidthIsItsFramesExposure) {
+    LoopRig rig(scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50], exposure_range_ms: [2, 100]"),
+                {0, true}, {"mode=triggered"});
+    ASSERT_TRUE(rig.settings.change({.exposure_mode = ExposureMode::kTriggerWidth}));
+    rig.loop.start();
+    const std::int64_t widths_us[] = {5'000, 40'000, 700, 300'000};
+    const double exposures_s[] = {0.005, 0.04, 0.002, 0.1};
+    std::vector<std::int64_t> begins_ns;
+    for (const std::int64_t width_us : widths_us) {
+        TriggerOrder order;
+        order.source = TriggerSource::kLine0;
+        order.at_monotonic_ns = monotonic_ns() - 1'000 * width_us;
+        order.until_monotonic_ns = order.at_monotonic_ns + 1'000 * width_us;
+        begins_ns.push_back(order.at_monotonic_ns);
+        ASSERT_EQ(rig.settings.trigger(order), TriggerResult::kTaken) << width_us;
+        ASSERT_TRUE(rig.collector.wait_for(begins_ns.size()));
+        // The next pulse begins after this one's frame.
+        std::this_thread::sleep_for(std::chrono::microseconds(width_us < 300'000 ? 350'000 : 0));
+    }
+    rig.loop.stop();
+    ASSERT_EQ(rig.collector.frames.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const FrameRecord& r = rig.collector.frames[i].record;
+        EXPECT_DOUBLE_EQ(r.exposure_s, exposures_s[i]) << i;
+        EXPECT_EQ(r.exposure_mid_monotonic_ns, begins_ns[i] + std::llround(0.5e9 * exposures_s[i])) << i;
+    }
+    // The longer exposure has more light.
+    const auto light = [&](std::size_t i) {
+        const auto& dn = rig.collector.frames[i].dn;
+        return std::accumulate(dn.begin(), dn.end(), 0.0) - 50.0 * static_cast<double>(dn.size());
+    };
+    EXPECT_NEAR(light(1) / light(0), 8, 1);
+    for (const CameraEvent& e : rig.collector.events)
+        if (e.kind == CameraEvent::Kind::kExposureStart) {
+            EXPECT_EQ(e.monotonic_ns, begins_ns[e.frame - 1]);
+            EXPECT_EQ(e.end_ns, begins_ns[e.frame - 1] + std::llround(1e9 * exposures_s[e.frame - 1]));
+        }
 }
 
 TEST_F(FrameLoopTest, SixtyFourTriggersWaitAndNoMore) {

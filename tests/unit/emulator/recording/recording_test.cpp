@@ -58,8 +58,11 @@ std::vector<Record> all_kinds() {
     SettingsChange change;
     change.exposure_s = 0.1, change.running = false, change.trigger_source = TriggerSource::kAction1;
     change.test_pattern = TestPattern::kWhite, change.burst_frames = 9, change.binning_y = 2;
+    change.trigger_activation = TriggerActivation::kAnyEdge, change.trigger_divider = 4;
+    change.trigger_overlap = TriggerOverlap::kOff, change.exposure_mode = ExposureMode::kTriggerWidth;
     TriggerOrder order;
-    order.at_monotonic_ns = 5, order.at_simulated = {6}, order.frames = 7, order.sequence = 8;
+    order.at_monotonic_ns = 5, order.until_monotonic_ns = 9, order.at_simulated = {6}, order.frames = 7,
+    order.sequence = 8;
     SettingsCommand settings;
     settings.gain_db = 3;
     std::vector<Record> all = {
@@ -125,10 +128,12 @@ TEST(Recording, AByteMoreOrLessOrAWordThatDoesNotExistIsNoRecord) {
     std::vector<std::uint8_t> longer = bytes, shorter = bytes, other = bytes;
     longer.push_back(0);
     shorter.pop_back();
-    other.back() = 9;  // no such result
+    other[other.size() - 9] = 9;  // no such result; the end of a pulse follows
     EXPECT_FALSE(read_back(longer));
     EXPECT_FALSE(read_back(shorter));
     EXPECT_FALSE(read_back(other));
+    bytes.resize(bytes.size() - 8);  // of a program without pulses
+    EXPECT_TRUE(read_back(bytes));
 }
 
 // --- files

@@ -139,6 +139,17 @@ const Mistake kMistakes[] = {
     // Ports.
     {"TwoOnOnePort", 25, "outputs: {truth: {port: 5733}, preview: {port: 5733}}", "25:25",
      "found TCP '127.0.0.1:5733', where outputs.preview.port listens, too"},
+    // Lines.
+    {"LinesInLockstep", 24, "mode: lockstep\nlines: {udp: {}}", "25:8",
+     "lines: found with 'mode: lockstep'; accepted: free_run, triggered"},
+    {"LineOfTwoWays", 24, "lines: {inputs: [{line: 1}], outputs: [{line: 1}]}", "24:47",
+     "lines.outputs.0.line: found 1, which is an input; accepted: a line for each"},
+    {"LineOfNoCamera", 24, "lines: {outputs: [{line: 1, camera: 2}]}", "24:37",
+     "lines.outputs.0.camera: found 2; accepted: 1 to 1"},
+    {"LineThatIsAnothersName", 25, "lines: {inputs: [{line: 2}]}\noutputs: {gige: {lines: [Line2]}}", "26:25",
+     "outputs.gige.lines: found 'Line2', which is a line of 'lines'"},
+    {"PinAndPulse", 24, "lines: {inputs: [{gpio: /dev/gpiochip0, pps: /dev/pps0}]}", "24:46",
+     "lines.inputs.0.pps: found beside gpio"},
     // What may be meant.
     {"NoOrigin", 16, "  position_m: [0.001, 0, 0]\norigin_:", "17:1",
      "unknown key; nearest known key: origin"},

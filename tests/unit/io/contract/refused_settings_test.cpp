@@ -25,6 +25,26 @@ TEST(RefusedSettings, NameTheValueWithItsLimits) {
               "frame_rate_hz: found 100; accepted: 1 to 60");
     EXPECT_EQ(refusal({.binning_x = 3}), "binning_x: found 3; accepted: 1, 2, 4 and so on up to 4");
     EXPECT_EQ(refusal({.burst_frames = 0}), "burst_frames: found 0; accepted: 1 to 65535");
+    EXPECT_EQ(refusal({.trigger_divider = 0}), "trigger_divider: found 0; accepted: 1 to 65535");
+}
+
+TEST(RefusedSettings, SayWhatAWidthDoesNotGoWith) {
+    const SettingsChange width{.exposure_mode = ExposureMode::kTriggerWidth};
+    CameraSettings automatic, any_edge;
+    automatic.automatic_exposure = true;
+    any_edge.trigger_activation = TriggerActivation::kAnyEdge;
+    EXPECT_EQ(refusal(width, automatic),
+              "exposure_mode: trigger_width and automatic_exposure exclude each other");
+    EXPECT_EQ(refusal(width, any_edge),
+              "exposure_mode: trigger_width and trigger_activation any_edge exclude each other");
+    CameraLimits lockstep = limits(), scanning = limits();
+    lockstep.lockstep = scanning.exposure_is_own = scanning.frame_rate_is_own = true;
+    EXPECT_EQ(refusal(width, {}, lockstep),
+              "exposure_mode: trigger_width needs real time, and this is lockstep");
+    EXPECT_EQ(refusal(width, {}, scanning),
+              "exposure_mode: trigger_width needs an exposure that the camera does not set itself");
+    EXPECT_EQ(refusal({.trigger_overlap = TriggerOverlap::kOff}, {}, scanning),
+              "trigger_overlap: a line scanner's frames join without a gap");
 }
 
 TEST(RefusedSettings, SayWhoSetsWhatIsNotToBeSet) {

@@ -122,6 +122,16 @@ TEST(PreviewRequest, SettingsAndFaultsAreWhatWasAsked) {
     EXPECT_TRUE(parse_fault_request("clear_all=1").clear_all);
     for (const TestPattern p : {TestPattern::kOff, TestPattern::kRampHorizontalMoving})
         EXPECT_EQ(parse_settings_change("test_pattern=" + std::string(name_of(p))).test_pattern, p);
+    const SettingsChange t = parse_settings_change(
+        "trigger_source=line7&trigger_activation=any_edge&trigger_divider=3&trigger_overlap=off&exposure_"
+        "mode="
+        "trigger_width");
+    EXPECT_EQ(t.trigger_source, TriggerSource::kLine7);
+    EXPECT_EQ(t.trigger_activation, TriggerActivation::kAnyEdge);
+    EXPECT_EQ(t.trigger_divider, 3);
+    EXPECT_EQ(t.trigger_overlap, TriggerOverlap::kOff);
+    EXPECT_EQ(t.exposure_mode, ExposureMode::kTriggerWidth);
+    EXPECT_EQ(name_of(TriggerSource::kLine1), "line1");
 }
 
 TEST(PreviewRequest, HostsThatAWebSiteCouldNameAreStrangers) {

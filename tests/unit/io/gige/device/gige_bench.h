@@ -44,8 +44,9 @@ class PlainCamera : public CameraControl {
             !within(c.gain_db, l.min_gain_db, l.max_gain_db) ||
             !within(c.black_level_dn, 0, l.max_black_level_dn) ||
             !within(c.frame_rate_hz, l.min_frame_rate_hz, l.max_frame_rate_hz) ||
-            !within(c.trigger_delay_s, 0, l.max_trigger_delay_s) || !binning(c.binning_x) ||
-            !binning(c.binning_y))
+            !within(c.trigger_delay_s, 0, l.max_trigger_delay_s) ||
+            !within(c.trigger_divider, 1, static_cast<double>(l.max_trigger_divider)) ||
+            !binning(c.binning_x) || !binning(c.binning_y))
             return false;
         apply(c, s);
         return true;
@@ -69,6 +70,7 @@ struct GigeBench {
     };
 
     PlainCamera camera;
+    CameraLines lines;
     FaultBoard faults{7};
     std::vector<gvcp::ResendRequest> resends;
     std::vector<std::size_t> tests;
@@ -87,9 +89,11 @@ struct GigeBench {
     std::vector<bool> ptp_orders;
     GigeDevice device;
 
-    explicit GigeBench(const CameraLimits* limits = nullptr, std::vector<std::string> lines = {},
-                       ClockSource clock_source = ClockSource::kTai, bool ptp_at_power_up = false)
+    explicit GigeBench(const CameraLimits* limits = nullptr, std::vector<std::string> more_lines = {},
+                       ClockSource clock_source = ClockSource::kTai, bool ptp_at_power_up = false,
+                       const LinePlan& plan = {})
         : camera(limits ? with(*limits) : PlainCamera()),
+          lines(camera, plan),
           source(clock_source),
           device({.model = "cam",
                   .serial = "S1",
@@ -98,10 +102,10 @@ struct GigeBench {
                   .mask = 0xFF000000,
                   .mac = 0x020000000001,
                   .multipart = true,
-                  .more_lines = std::move(lines),
+                  .more_lines = std::move(more_lines),
                   .clock_source = clock_source,
                   .ptp_at_power_up = ptp_at_power_up},
-                 camera, faults, effects()) {
+                 camera, faults, effects(), &lines) {
         device.tick(now_ns);
     }
     static PlainCamera with(const CameraLimits& limits) {
