@@ -60,8 +60,8 @@ struct Bench {
 // outputs. Throws InputError, DeviceError. Owner thread.
 Bench bench(const ScenarioConfig& scenario, const BenchOptions& options);
 
-// A scenario beside its variants: their runs take turns within one process, so each run has a run of the first
-// close to it, on a machine in much the same state.
+// The figures of a scenario or one of its variants. Their runs take turns within one process, so each run has
+// a run of the first close to it, on a machine in much the same state.
 struct BenchVariant {
     std::string name;
     Bench bench;

@@ -47,7 +47,7 @@ class FrameLoop {
     bool take_level_change(LevelChange& change) noexcept { return render_.take_level_change(change); }
     // Returns figures of the last rendered frame. For benchmarks, when the loop is stopped.
     const RenderStats& render_stats() const { return render_.stats(); }
-    // The program's processor time: of all threads, and of those that work ahead (AheadThread).
+    // The processor time of all threads of the program, and the part of those that work ahead (AheadThread).
     struct ProcessorTime {
         std::int64_t all_ns = 0, ahead_ns = 0;
 

@@ -3,8 +3,9 @@
 //
 // A lobe has one ray or a few, along directions to its visible normals. The result also serves the lobes of
 // the pixels around it (glossy_reuse.h), so rays stay here until all tiles have been traced. Each part of the
-// frame has room of its own, so a frame does not depend on the order of its parts. Rays are traced as objects,
-// and then sorted by pixel into arrays (glossy_columns.h). A lobe with its rays takes about 600 bytes.
+// frame has room of its own, so a frame does not depend on the order of its parts. Rays are traced as
+// objects, and then sorted by pixel into arrays (glossy_columns.h). A lobe with its rays takes about 600
+// bytes.
 
 #include <array>
 #include <cstddef>
@@ -141,7 +142,7 @@ class GlossyBuffer {
     std::unique_ptr<std::uint32_t[], Unmap> words_;
     std::unique_ptr<GlossySum[], Unmap> sums_;
     GlossyColumns columns_;
-    // By pixel: its rays in the columns. Equal where it has none.
+    // The ranges of the pixels' rays in the columns; empty where a pixel has none.
     std::vector<std::uint32_t> first_of_pixel_, end_of_pixel_;
 
     std::size_t index(int x, int y) const {

@@ -1,6 +1,6 @@
 #pragma once
 // Rays along glossy lobes as arrays, one for each quantity, in the order of their pixels. So the rays of
-// neighbouring pixels in a row lie side by side, and a lobe weighs a vector of them at a time
+// neighbouring pixels in a row are neighbours in the arrays, and a lobe weighs a vector of them at a time
 // (glossy_window.h).
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace hilcam {
 
-// What a lobe sums over its rays, with a weight for each: one cache line.
+// The values of a ray that a lobe sums, with a weight for each ray. They fill a cache line.
 struct alignas(64) GlossySum {
     Spectrum light;  // radiance of the place that is met; none if the ray meets nothing
     std::array<float, Planetshine::kMaxBodies>
@@ -32,7 +32,7 @@ static_assert(sizeof(GlossySum) == 64);
 struct GlossyColumns {
     static constexpr std::size_t kPadding = 16;  // vectors may read as far past the last ray
 
-    // Of its lobe: place and normal, ray space; column of its pixel; object; and side (glossy_side()).
+    // The lobe's place and normal in ray space, the column of its pixel, its object and side (glossy_side()).
     float *start_x, *start_y, *start_z;
     float *normal_x, *normal_y, *normal_z;
     float* column_px;

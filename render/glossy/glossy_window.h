@@ -1,7 +1,7 @@
 #pragma once
 // Weights the rays of the pixels around a glossy lobe: those that start near it on its surface, by its BRDF
-// towards the place that each has met over the density of the ray's direction. Vectors of rays, from arrays to
-// arrays; every vector width gives the same bits. See glossy_reuse.h for the law.
+// towards the place that each has met over the density of the ray's direction. It works on vectors of rays,
+// from arrays to arrays; every vector width gives the same bits. See glossy_reuse.h for the law.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace hilcam {
 
-// Rays that lie side by side in the columns, all in one row of the picture.
+// A range of the columns: rays of successive pixels in a row of the picture.
 struct GlossyRange {
     std::uint32_t first, end;
     float row_weight;  // weight of the row
@@ -36,7 +36,7 @@ struct WeighedRays {
     float rays() const { return squares > 0 ? all * all / squares : 0.0f; }
 };
 
-// column_px: of the lobe's pixel. Loop, any thread.
+// column_px: the column of the lobe's pixel. Loop, any thread.
 void weigh_rays(const GlossyColumns& columns, std::span<const GlossyRange> ranges, const GlossyPoint& lobe,
                 int column_px, WeighedRays& out);
 
