@@ -12,6 +12,7 @@
 
 #include "gige_bench.h"
 #include "io/gige/device/genicam_xml.h"
+#include "io/gige/device/gige_lines.h"
 
 namespace hilcam {
 namespace {
@@ -226,12 +227,18 @@ TEST_P(GenicamOf, EnumerationsAcceptTheirEntriesAndNothingElse) {
             f.access != Feature::Access::kReadWrite || f.name == "GevCCP")
             continue;
         SCOPED_TRACE(f.name);
-        GigeBench b(&l);
+        LinePlan plan;
+        plan.is_there[1] = plan.is_output[1] = true;
+        GigeBench b(&l, {}, ClockSource::kTai, false, plan);
         b.take_control();
+        // Signals are for outputs, and the wiring says what a line is.
+        EXPECT_EQ(b.write(feature_register::kLineSelector, GigeLines::kFirstOwn + 1), gvcp::kSuccess);
         for (const EnumEntry& entry : f.entries) {
-            EXPECT_EQ(b.write(f.address, static_cast<std::uint32_t>(entry.value)), gvcp::kSuccess)
+            const bool refused = f.name == "LineMode" && entry.name == "Input";
+            EXPECT_EQ(b.write(f.address, static_cast<std::uint32_t>(entry.value)),
+                      refused ? gvcp::kInvalidParameter : gvcp::kSuccess)
                 << entry.name;
-            EXPECT_EQ(b.read(f.address), entry.value);
+            EXPECT_EQ(b.read(f.address), refused ? 1 : entry.value);
         }
         EXPECT_EQ(b.write(f.address, 0x7FFFFFF0), gvcp::kInvalidParameter);
     }
