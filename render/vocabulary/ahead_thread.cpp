@@ -8,55 +8,53 @@
 
 #include <mutex>
 #include <utility>
-#include <vector>
 
 namespace hilcam {
 namespace {
-
-// The clocks of threads that run, and the processor time of those that have ended.
-struct ProcessorTimes {
-    std::mutex mutex;
-    std::vector<clockid_t> running;
-    std::int64_t ended_ns = 0;
-};
-ProcessorTimes& processor_times() {
-    static ProcessorTimes times;
-    return times;
-}
 
 std::int64_t time_of(clockid_t clock) {
     timespec t{};
     return clock_gettime(clock, &t) == 0 ? std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec : 0;
 }
 
-// Enters the calling thread's clock as long as this lives.
+// Counts the calling thread's processor time as long as this lives, and keeps it afterwards. Threads may start
+// while frames are made, so their list allocates nothing.
 class CountedThread {
   public:
     CountedThread() {
         pthread_getcpuclockid(pthread_self(), &clock_);
-        const std::lock_guard lock(processor_times().mutex);
-        processor_times().running.push_back(clock_);
+        const std::lock_guard lock(mutex);
+        next_ = first, first = this;
     }
     ~CountedThread() {
-        const std::lock_guard lock(processor_times().mutex);
-        processor_times().ended_ns += time_of(clock_);
-        std::erase(processor_times().running, clock_);
+        const std::lock_guard lock(mutex);
+        ended_ns += time_of(clock_);
+        CountedThread** link = &first;
+        while (*link != this) link = &(*link)->next_;
+        *link = next_;
     }
     CountedThread(const CountedThread&) = delete;
     CountedThread& operator=(const CountedThread&) = delete;
 
+    static std::int64_t all_ns() {
+        const std::lock_guard lock(mutex);
+        std::int64_t sum_ns = ended_ns;
+        for (const CountedThread* thread = first; thread; thread = thread->next_)
+            sum_ns += time_of(thread->clock_);
+        return sum_ns;
+    }
+
   private:
+    static inline std::mutex mutex;
+    static inline CountedThread* first = nullptr;
+    static inline std::int64_t ended_ns = 0;
     clockid_t clock_{};
+    CountedThread* next_ = nullptr;
 };
 
 }  // namespace
 
-std::int64_t AheadThread::processor_ns() {
-    const std::lock_guard lock(processor_times().mutex);
-    std::int64_t sum_ns = processor_times().ended_ns;
-    for (const clockid_t clock : processor_times().running) sum_ns += time_of(clock);
-    return sum_ns;
-}
+std::int64_t AheadThread::processor_ns() { return CountedThread::all_ns(); }
 
 void AheadThread::start(std::function<void()> work, Rank rank) {
     work_ = std::move(work);

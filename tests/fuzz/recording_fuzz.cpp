@@ -23,9 +23,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::array<std::uint8_t, kRecordPrefixBytes + kMaxRecordBytes> again{};
         std::uint64_t before = reader.offset();
         for (Record record; reader.next(record); before = reader.offset()) {
-            const std::size_t written = encode_record(record, again);
-            // Payloads of the wire have bytes that say nothing.
-            HILCAM_CHECK(written == reader.offset() - before);
+            const std::size_t written = encode_record(record, again), was = reader.offset() - before;
+            // Payloads of the wire have bytes that say nothing. Changes and triggers of earlier programs end before
+            // the fields that came later.
+            const bool may_end_early = std::holds_alternative<RecordedChange>(record) ||
+                                       std::holds_alternative<RecordedTrigger>(record);
+            HILCAM_CHECK(written == was || (may_end_early && written > was));
             HILCAM_CHECK(
                 decode_record(std::span(again).subspan(kRecordPrefixBytes, written - kRecordPrefixBytes)));
         }
