@@ -322,7 +322,7 @@ void FrameTracer::trace_part(const FrameContext& frame, const PixelBox& box, int
         tile.parts = &parts;
     }
     if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
-    if (glossy) glossy_.sort(*glossy);
+    if (glossy) glossy_.link(*glossy);
     if (parts_) leave_out_not_finite(pixels, parts), write_parts(parts, share);
     leave_out_not_finite(tile);
     write(pixels, share, box, radiance);

@@ -3,9 +3,8 @@
 //
 // A lobe has one ray or a few, along directions to its visible normals. The result also serves the lobes of
 // the pixels around it (glossy_reuse.h), so rays stay here until all tiles have been traced. Each part of the
-// frame has room of its own, so a frame does not depend on the order of its parts. Rays are traced as
-// objects, and then sorted by pixel into arrays (glossy_columns.h). A lobe with its rays takes about 600
-// bytes.
+// frame has room of its own, so a frame does not depend on the order of its parts. A lobe with its rays takes
+// about 500 bytes.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "render/glossy/glossy_columns.h"
 #include "render/planetshine/planetshine.h"
 #include "render/visibility/pixel_samples.h"
 #include "render/vocabulary/pixel_box.h"
@@ -53,9 +51,23 @@ struct GlossyPoint {
     int sent = 0;          // rays along it, with those that would have gone below its surface
 };
 
-// A ray along a lobe, as it is traced.
+// Where a ray starts: all that decides whether a lobe takes it, apart from the rest, as most are not taken.
+struct GlossyStart {
+    Vec3f point_m, normal;  // those of its lobe
+    std::uint32_t object;
+    std::uint16_t surface;
+    bool back;
+    std::uint32_t next;  // next ray of the same pixel, in the frame
+
+    bool on_surface_of(const GlossyPoint& lobe) const {
+        return object == lobe.object && surface == lobe.surface && back == lobe.back;
+    }
+};
+
+// A ray along a lobe.
 struct alignas(64) GlossyRay {
-    Spectrum light;        // radiance of what it has met, divided by the per_light of its point
+    // Radiance of what it has met; until it is linked, divided by the per_light of its point.
+    Spectrum light;
     Vec3f met_m;           // the place that it has met, ray space; its direction if it has met nothing
     float per_density_sr;  // 1 / density of its direction
     std::array<float, Planetshine::kMaxBodies>
@@ -69,6 +81,8 @@ static_assert(sizeof(GlossyRay) == 64);
 
 class GlossyBuffer {
   public:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
     // The lobes and rays of one part of the frame. One thread at a time.
     class Part {
       public:
@@ -76,12 +90,11 @@ class GlossyBuffer {
         GlossyPoint* add_point() {
             return point_count_ < points_.size() ? new (&points_[point_count_++]) GlossyPoint : nullptr;
         }
-        // Adds a ray of a point of this part. Null if there is no room.
+        // Adds a ray of the point that was added last.
         GlossyRay* add_ray(const GlossyPoint& of);
         std::span<GlossyPoint> points() { return points_.first(point_count_); }
         std::span<const GlossyPoint> points() const { return points_.first(point_count_); }
         const PixelBox& box() const { return box_; }
-        std::size_t width() const { return static_cast<std::size_t>(box_.x1 - box_.x0); }
         float share() const { return share_; }
         // Returns the point of a ray; both belong to this part.
         const GlossyPoint& point_of(const GlossyRay& ray) const { return points_[ray.point - first_point_]; }
@@ -94,7 +107,7 @@ class GlossyBuffer {
         std::span<GlossyRay> rays_;
         std::size_t point_count_ = 0, ray_count_ = 0;
         std::uint32_t first_point_ = 0, first_ray_ = 0;
-        bool sorted_ = false;  // its rays are in the frame's columns
+        std::size_t linked_ = 0;  // rays that for_each_ray() visits
     };
 
     GlossyBuffer() = default;
@@ -109,20 +122,15 @@ class GlossyBuffer {
     Part& begin(std::size_t number, const PixelBox& box, float share);
     // Empties a part that has no lobes in this frame.
     void skip(std::size_t number);
-    // Enters all rays of a part in the frame's columns; they must be finished. Called again after more rays.
-    void sort(Part& part);
+    // Connects a part's rays to their pixels; those that are new must be finished.
+    void link(Part& part);
 
-    // The rays that were sorted, by pixel.
-    const GlossyColumns& columns() const { return columns_; }
-    // Calls visit(first, end) for the rays of pixels x0 to x1 of a row, as ranges of the columns. The order
-    // depends only on the frame. Any thread, after sort().
+    // Calls visit(start, ray) for the rays of a pixel, in an order that depends only on the frame. Any
+    // thread, after link().
     template <class Visit>
-    void for_each_range(int x0, int x1, int y, const Visit& visit) const {
-        for (std::size_t at = index(x0, y), last = index(x1, y); at <= last; ++at) {
-            const std::uint32_t first = first_of_pixel_[at];
-            while (at < last && first_of_pixel_[at + 1] == end_of_pixel_[at]) ++at;
-            if (end_of_pixel_[at] > first) visit(first, end_of_pixel_[at]);
-        }
+    void for_each_ray(int x, int y, const Visit& visit) const {
+        for (std::uint32_t r = first_of_pixel_[index(x, y)]; r != kNone; r = starts_[r].next)
+            visit(starts_[r], rays_[r]);
     }
     int width() const { return width_; }
     int height() const { return height_; }
@@ -138,17 +146,13 @@ class GlossyBuffer {
     };
     std::unique_ptr<GlossyPoint[], Unmap> points_;
     std::unique_ptr<GlossyRay[], Unmap> rays_;
-    std::unique_ptr<float[], Unmap> floats_;  // memory of the columns
-    std::unique_ptr<std::uint32_t[], Unmap> words_;
-    std::unique_ptr<GlossySum[], Unmap> sums_;
-    GlossyColumns columns_;
-    // The ranges of the pixels' rays in the columns; empty where a pixel has none.
-    std::vector<std::uint32_t> first_of_pixel_, end_of_pixel_;
+    std::unique_ptr<GlossyStart[], Unmap> starts_;  // by ray
+    std::vector<std::uint32_t> first_of_pixel_;
 
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
-    void enter(const GlossyPoint& of, const GlossyRay& ray, int column, std::size_t place);
+    void clear_pixels(const PixelBox& box);
     template <class T>
     static std::unique_ptr<T[], Unmap> room_for(std::size_t count);
 };

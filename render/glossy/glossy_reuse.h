@@ -28,7 +28,7 @@ struct GlossyPlace {
 GlossyPlace glossy_place(int x, int y, int ray, int reach_px);
 
 // Returns the standard error of a lobe's light, from the rays of the pixels in `within`: radiance times its
-// samples, largest bin. x, y: pixel of the point. Loop, any thread, while no other thread sorts rays there.
+// samples, largest bin. x, y: pixel of the point. Loop, any thread, while no other thread links rays there.
 float glossy_error(const GlossyBuffer& buffer, const GlossyPoint& at, int x, int y, const PixelBox& within);
 
 // The light that a lobe sends to its pixel: radiance times its samples.

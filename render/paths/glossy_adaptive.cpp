@@ -31,12 +31,9 @@ float light_at_stake(const GlossyBuffer& buffer, const GlossyPoint& lobe, int x,
     float most = max_component(lobe.cached);
     for (const Spectrum& body : lobe.bodies) most += max_component(body);
     const float to_pixel = max_component(lobe.weight);
-    const GlossyColumns& rays = buffer.columns();
-    const std::uint32_t side = glossy_side(lobe.surface, lobe.back);
-    buffer.for_each_range(x, x, y, [&](std::uint32_t first, std::uint32_t end) {
-        for (std::uint32_t i = first; i < end; ++i)
-            if (rays.object[i] == lobe.object && rays.side[i] == side)
-                most = std::max(most, to_pixel * rays.sum[i].brightest());
+    buffer.for_each_ray(x, y, [&](const GlossyStart& start, const GlossyRay& ray) {
+        if (!ray.free && start.on_surface_of(lobe))
+            most = std::max(most, to_pixel * max_component(ray.light));
     });
     return lobe.share * most;
 }

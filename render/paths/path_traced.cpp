@@ -58,26 +58,20 @@ class TracedPaths final : public PathModel {
     std::array<bool, kMaxSamples> near_part_;
     MirrorRays many_;
 
-    // Adds rays to the tile's lobes that need them: first to those of every other pixel, as on a chessboard,
-    // so that the others share them.
+    // Adds rays to the tile's lobes that need them, some lobes at a time: later ones share them.
     void add_further_rays(Tile& tile) {
         constexpr std::size_t kTogether = 64;
-        const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
         const std::span<GlossyPoint> lobes = tile.glossy->points();
-        for (const std::uint32_t color : {0u, 1u}) {
-            tile.glossy_frame->sort(*tile.glossy);
-            for (std::size_t next = 0; next < lobes.size();) {
-                NextRays rays{next_};
-                for (std::size_t count = 0; next < lobes.size() && count < kTogether; ++next) {
-                    GlossyPoint& lobe = lobes[next];
-                    if ((lobe.pixel % width + lobe.pixel / width) % 2 != color) continue;
-                    const int further = further_rays(tile, lobe);
-                    if (further == 0) continue;
-                    current_[count] = shading_point_of(lobe);
-                    add_along_lobe(tile, current_[count++], lobe, further, rays);
-                }
-                trace_on(tile, follow(tile, rays.count, tile.frame.max_depth == 1), 2);
+        for (std::size_t next = 0; next < lobes.size();) {
+            tile.glossy_frame->link(*tile.glossy);
+            NextRays rays{next_};
+            for (std::size_t count = 0; next < lobes.size() && count < kTogether; ++next) {
+                const int further = further_rays(tile, lobes[next]);
+                if (further == 0) continue;
+                current_[count] = shading_point_of(lobes[next]);
+                add_along_lobe(tile, current_[count++], lobes[next], further, rays);
             }
+            trace_on(tile, follow(tile, rays.count, tile.frame.max_depth == 1), 2);
         }
     }
 

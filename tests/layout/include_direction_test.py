@@ -51,7 +51,7 @@ ONLY_IN = {
     "google": {"io/vizard/vizard_message.cpp"},
     "vizard.pb": {"io/vizard/vizard_message.cpp"},
     "zmq": {"io/vizard/reply_socket.cpp"},
-    "hwy": {"render/glossy/glossy_window.cpp", "render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp", "render/shading/cluster_packet.cpp",
+    "hwy": {"render/ground/crater_shape.cpp", "render/ground/double_lanes-inl.h", "render/ground/relief_noise.cpp", "render/shading/cluster_packet.cpp",
             "render/lod/coverage_map_sums.cpp", "render/ground_shading/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
             "render/visibility/lane_vectors-inl.h", "render/visibility/sixteen_lanes-inl.h",
             "render/visibility/rolling_raster.cpp", "render/visibility/triangle_lanes-inl.h", "render/visibility/visibility_raster.cpp", "render/visibility/visibility_tile.cpp", "sensor/convolution/fourier.cpp",

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <set>
-#include <vector>
 
 namespace hilcam {
 namespace {
@@ -15,63 +14,44 @@ GlossyRay& add_ray(GlossyBuffer::Part& part, std::uint32_t pixel) {
 }
 std::size_t rays_at(const GlossyBuffer& buffer, int x, int y) {
     std::size_t count = 0;
-    buffer.for_each_range(x, x, y, [&](std::uint32_t first, std::uint32_t end) { count += end - first; });
+    buffer.for_each_ray(x, y, [&](const GlossyStart&, const GlossyRay&) { ++count; });
     return count;
 }
 
-TEST(GlossyBuffer, RaysAreFoundAtTheirPixelsWhenTheyAreSorted) {
+TEST(GlossyBuffer, RaysAreFoundAtTheirPixelsWhenAllHaveComeBack) {
     GlossyBuffer buffer(8, 4, 2, 16);
     GlossyBuffer::Part& right = buffer.begin(1, {4, 0, 8, 4}, 1);
     add_ray(right, 1 * 4 + 2);  // x 6, y 1
     add_ray(right, 1 * 4 + 2);
     EXPECT_EQ(rays_at(buffer, 6, 1), 0U);
-    buffer.sort(right);
+    buffer.link(right);
     EXPECT_EQ(rays_at(buffer, 6, 1), 2U);
     EXPECT_EQ(rays_at(buffer, 2, 1), 0U);
 }
 
-// Rays that come after others were sorted join them, and each light becomes a radiance once.
-TEST(GlossyBuffer, LaterRaysJoinThoseThatAreSorted) {
+// Rays that come after others have been linked join them, and each light becomes a radiance once.
+TEST(GlossyBuffer, LaterRaysJoinThoseThatAreLinked) {
     GlossyBuffer buffer(4, 4, 1, 16);
     GlossyBuffer::Part& part = buffer.begin(0, {0, 0, 4, 4}, 1);
     GlossyPoint* const point = part.add_point();
     point->pixel = 5, point->per_light = 2;
     for (int round = 1; round < 4; ++round) {
-        GlossyRay* const ray = part.add_ray(*point);
-        ray->light[0] = 3, ray->set_met({});
-        buffer.sort(part);
+        part.add_ray(*point)->light[0] = 3;
+        buffer.link(part);
         EXPECT_EQ(rays_at(buffer, 1, 1), static_cast<std::size_t>(round));
-        buffer.for_each_range(1, 1, 1, [&](std::uint32_t first, std::uint32_t end) {
-            for (std::uint32_t i = first; i < end; ++i) EXPECT_EQ(buffer.columns().sum[i].light[0], 6);
-        });
+        buffer.for_each_ray(1, 1,
+                            [](const GlossyStart&, const GlossyRay& ray) { EXPECT_EQ(ray.light[0], 6); });
     }
-}
-
-// A row of pixels in two parts, of which the second has no rays in its first pixel: two ranges, in the order of the pixels.
-TEST(GlossyBuffer, ARowIsARangeForEachPart) {
-    GlossyBuffer buffer(8, 2, 2, 16);
-    GlossyBuffer::Part &left = buffer.begin(0, {0, 0, 4, 2}, 1), &right = buffer.begin(1, {4, 0, 8, 2}, 1);
-    for (const std::uint32_t pixel : {7u, 2u, 3u, 3u}) add_ray(left, pixel);
-    for (const std::uint32_t pixel : {6u, 2u, 1u}) add_ray(right, pixel);
-    buffer.sort(left), buffer.sort(right);
-    std::vector<float> columns;
-    int ranges = 0;
-    buffer.for_each_range(1, 6, 0, [&](std::uint32_t first, std::uint32_t end) {
-        ++ranges;
-        for (std::uint32_t i = first; i < end; ++i) columns.push_back(buffer.columns().column_px[i]);
-    });
-    EXPECT_EQ(columns, (std::vector<float>{2, 3, 3, 5, 6}));
-    EXPECT_EQ(ranges, 2);
 }
 
 TEST(GlossyBuffer, APartThatBeginsAnewHasNothingOfTheFrameBefore) {
     GlossyBuffer buffer(4, 4, 1, 16);
     add_ray(buffer.begin(0, {0, 0, 4, 4}, 1), 5);
-    buffer.sort(buffer.begin(0, {0, 0, 4, 4}, 1));
+    buffer.link(buffer.begin(0, {0, 0, 4, 4}, 1));
     EXPECT_EQ(rays_at(buffer, 1, 1), 0U);
     GlossyBuffer::Part& part = buffer.begin(0, {0, 0, 4, 4}, 1);
     add_ray(part, 5);
-    buffer.sort(part);
+    buffer.link(part);
     EXPECT_EQ(rays_at(buffer, 1, 1), 1U);
     buffer.skip(0);
     EXPECT_EQ(rays_at(buffer, 1, 1), 0U);

@@ -36,7 +36,7 @@ struct Plane {
     explicit Plane(float alpha, const Scene& scene) {
         for (int y = 0; y < kSize; ++y)
             for (int x = 0; x < kSize; ++x) add(alpha, x, y, scene);
-        buffer.sort(part);
+        buffer.link(part);
     }
     void add(float alpha, int x, int y, const Scene& scene) {
         GlossyPoint& point = *part.add_point();
