@@ -36,7 +36,7 @@ struct Delivery {
     std::int64_t command_ns = 0, exposure_ns = 0, first_ns = 0, last_ns = 0;
 };
 
-// The frames with the longest latencies. One writer; read it when that has ended.
+// Keeps the frames with the longest latencies. One thread writes; others read it once that has ended.
 class LatestFrames {
   public:
     static constexpr std::size_t kMax = 10;
@@ -55,7 +55,7 @@ class LatestFrames {
 std::vector<LatestFrames::Entry> merged(std::span<const LatestFrames::Entry> a,
                                         std::span<const LatestFrames::Entry> b);
 
-// Frames whose latency is above a bound. One writer; read it when that has ended.
+// Counts the frames whose latency exceeds a bound. One thread writes; others read it once that has ended.
 struct FramesAbove {
     std::uint64_t frames = 0, first = 0;  // first: id of the first one; 0: none
     std::int64_t max_ns = 0;              // longest latency of all frames that count, above the bound or not
@@ -75,7 +75,7 @@ class OutputMeter : public DeliveryListener {
     const FramesAbove& above_latency() const { return above_latency_; }
     const FramesAbove& above_p999() const { return above_p999_; }
     const FramesAbove& above_exposure() const { return above_exposure_; }
-    // Number of frames whose latency from the middle of the exposure counts.
+    // Returns the number of frames that were compared with the bound on exposure latency.
     std::uint64_t judged_exposures() const { return judged_exposures_; }
 
   private:

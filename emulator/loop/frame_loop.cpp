@@ -71,6 +71,7 @@ void FrameLoop::count_frame(std::uint32_t level) {
     counted_processor_ns_ = now_ns;
     if (figures_.counters.frames.fetch_add(1, std::memory_order_relaxed) + 1 != limits_.warm_up) return;
     figures_.meters.clear();
+    // Takes a lock, once and in benchmarks alone: other runs have no warm-up frames.
     warm_processor_time_ = ProcessorTime::now();
 }
 

@@ -15,8 +15,8 @@ struct RunBounds {
 
     double latency_s = kNone, latency_p999_s = kNone, exposure_latency_s = kNone;
     double missed_exposures = kNone, dropped_packets = kNone, dropped_frames = kNone;
-    // The first frame whose latency counts, and the first exposure that counts as missed: the first ones are
-    // late on every machine, while caches fill and processors wake.
+    // Frames from this id on count for the bounds on latency and on missed exposures. Earlier ones are late
+    // on every machine, while caches fill and processors wake.
     std::int64_t from_frame = 11;
 
     bool times_commands() const { return latency_s >= 0 || latency_p999_s >= 0; }

@@ -103,7 +103,7 @@ struct GigeSink::Implementation {
         std::uint64_t block = 0;  // block of the event's frame; 0: none, or not known yet
     };
     BoundedQueue<Event, 1024> events;
-    std::atomic<std::uint64_t> begun_frame{0};  // the newest frame whose exposure has begun
+    std::atomic<std::uint64_t> begun_frame{0};  // id of the frame whose exposure began last
     // The newest acquisition and its first frame; the control thread's.
     std::uint64_t begun_acquisition = 0, first_frame = 0;
     std::optional<CameraEvent> exposure_end;  // the loop's; reported when publish() knows its frame's block

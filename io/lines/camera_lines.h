@@ -83,12 +83,12 @@ class CameraLines {
     void tick(std::int64_t now_ns);
     std::int64_t wake_ns() const;
     // Sets the function that asks for a tick() soon; called by any thread, the loop too: it must not lock.
-    // Before the threads start.
+    // Call this before the threads start.
     void on_wake(std::function<void()> wake) { wake_ = std::move(wake); }
     // Takes the oldest edge of an output that has not been taken; false when there is none.
     bool take_output(LineEdge& edge);
     // Sets the function that takes edges of inputs as the camera sees them, with a lock held: it must not
-    // call back. Before the threads start.
+    // call back. Call this before the threads start.
     void on_edge(std::function<void(const LineEdge&)> tell) { tell_ = std::move(tell); }
 
     // --- registers

@@ -48,8 +48,8 @@ class AheadThread {
     // True when pieces of the work that calls this were skipped. Always false on other threads.
     static bool was_given_up() { return tbb::is_current_task_group_canceling(); }
     // Returns the processor time of all such threads of the program, also of those that have ended [ns]. It
-    // belongs to simulated time, not to frames: a frame that comes later needs more of it. Any thread but the
-    // loop, as it takes a lock.
+    // belongs to simulated time, not to frames: a frame that comes later needs more of it. Takes a lock, so
+    // frames that are timed do not call it. Any thread.
     static std::int64_t processor_ns();
     // Returns when the work is done or given up. Loop.
     void wait() const {

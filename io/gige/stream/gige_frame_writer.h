@@ -27,7 +27,7 @@ class GigeFrameWriter {
         bool finished = false;  // the last frame of the acquisition will not be sent
     };
     // Returns the frame's block id; 0 when it will not be sent. A frame with another size than the stream's
-    // is not sent (the binning has just changed), nor one whose exposure began before the acquisition did.
+    // is not sent (the binning has just changed); neither is one whose exposure began before the stream did.
     // Loop, once for each frame.
     std::uint64_t admit(const DnImage& frame, const FrameRecord& record, const GigeStreamNow& now) noexcept;
     // Writes the frame after admit(). When the ring is full or a fault drops the frame, its block id is a
