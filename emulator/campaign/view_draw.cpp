@@ -157,7 +157,9 @@ class ViewMaker {
         const ExpectedSignal expected = expected_signal(
             sheet, {camera_.camera().objects()[camera_.target()].mean_reflectance(), phase_rad,
                     truth_.sun_distance_m / kAstronomicalUnit_m,
-                    std::isfinite(target.sunlit) ? target.sunlit : 1, kPi * radius_px * radius_px});
+                    std::isfinite(target.sunlit) ? target.sunlit : 1, kPi * radius_px * radius_px,
+                    emitted_e(sheet, SpectralGrid(s.spectrum_edges_um),
+                              camera_.camera().objects()[camera_.target()].mean_emission())});
         const double rate_e_s = expected.signal_e / sheet.exposure_s + sheet.dark_e_s;
         const double wanted_e = (dn - s.camera.offset_dn) / sheet.gain_dn_e;
         const auto [min_s, max_s] = exposure_range_s(s.camera);

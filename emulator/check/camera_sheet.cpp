@@ -21,6 +21,18 @@ double sum_of(const Spectrum& a, const Spectrum& b) {
     return sum;
 }
 
+// Returns the largest number of bins over a range, one edge of which is where thermal bins begin if that is
+// within it.
+SpectralGrid even_grid(double from_um, double to_um) {
+    std::vector<double> edges_um;
+    for (int i = 0; i <= kMaxBins; ++i) edges_um.push_back(from_um + (to_um - from_um) * i / kMaxBins);
+    if (from_um < kThermalFrom_um && to_um > kThermalFrom_um)
+        *std::min_element(edges_um.begin() + 1, edges_um.end() - 1, [](double a, double b) {
+            return std::abs(a - kThermalFrom_um) < std::abs(b - kThermalFrom_um);
+        }) = kThermalFrom_um;
+    return SpectralGrid(edges_um);
+}
+
 // Returns the grid that all of the camera's curves cover; constants cover silicon's range.
 SpectralGrid own_grid(const CameraModel& c) {
     double from_um = 0.40, to_um = 0.95;
@@ -34,11 +46,9 @@ SpectralGrid own_grid(const CameraModel& c) {
     cover(c.quantum_efficiency);
     cover(c.transmission);
     for (const ColorFilterConfig& filter : c.color_filter.filters) cover(filter.transmission);
-    from_um = std::clamp(from_um, 0.28, 2.4);
-    to_um = std::clamp(to_um, from_um + 0.01, 2.5);
-    std::vector<double> edges_um;
-    for (int i = 0; i <= kMaxBins; ++i) edges_um.push_back(from_um + (to_um - from_um) * i / kMaxBins);
-    return SpectralGrid(edges_um);
+    from_um = std::clamp(from_um, 0.28, kLongest_um - 0.01);
+    to_um = std::clamp(to_um, from_um + 0.01, kLongest_um);
+    return even_grid(from_um, to_um);
 }
 
 void set_geometry(const CameraModel& c, CameraSheet& s) {
@@ -148,6 +158,18 @@ void set_scenes(const SpectralGrid& grid, const Spectrum& response, CameraSheet&
     add("Earth (albedo 0.3), Sun overhead", 0.3);
 }
 
+// The temperature difference that changes a pixel by its temporal noise.
+void set_thermal(const SpectralGrid& grid, const Spectrum& response, CameraSheet& s) {
+    if (!grid.has_thermal()) return;
+    const auto electrons = [&](double kelvin) {
+        return s.exposure_s * sum_of(response, planck_w_m2_sr_um(grid, kelvin));
+    };
+    s.black_body_e = electrons(kRoomTemperature_k);
+    const double held_e = std::min(s.black_body_e, s.full_scale_e);
+    const double per_k = 0.5 * (electrons(kRoomTemperature_k + 1) - electrons(kRoomTemperature_k - 1));
+    s.netd_k = std::sqrt(held_e + s.dark_total_e * s.dark_total_e) / per_k;
+}
+
 void set_stars(const CameraModel& c, const SpectralGrid& grid, const Curve* filter, CameraSheet& s) {
     const Spectrum per_irradiance = electrons_per_s_per_irradiance(c, grid, filter);
     const StarSpectra spectra(grid);
@@ -192,8 +214,13 @@ CameraSheet camera_sheet(const CameraModel& c) {
     set_point_shares(c, grid, s);
     s.saturation_w_m2_sr_um = (s.full_scale_e - s.dark_e_s * s.exposure_s) / (s.response_e_s * s.exposure_s);
     set_scenes(grid, response, s);
+    set_thermal(grid, response, s);
     set_stars(c, grid, filter, s);
     return s;
+}
+
+double emitted_e(const CameraSheet& sheet, const SpectralGrid& grid, const Spectrum& radiance_w_m2_sr_um) {
+    return sheet.exposure_s * sum_of(electrons_per_s_per_radiance(sheet.camera, grid), radiance_w_m2_sr_um);
 }
 
 double share_in_bins(const CameraModel& c, const SpectralGrid& bins) {
@@ -204,9 +231,7 @@ double share_in_bins(const CameraModel& c, const SpectralGrid& bins) {
     const double from_um = std::max(own.from_um(0), bins.from_um(0));
     const double to_um = std::min(own.to_um(own.size() - 1), bins.to_um(bins.size() - 1));
     if (to_um <= from_um) return 0;
-    std::vector<double> edges_um;
-    for (int i = 0; i <= kMaxBins; ++i) edges_um.push_back(from_um + (to_um - from_um) * i / kMaxBins);
-    return sunlight(SpectralGrid(edges_um)) / sunlight(own);
+    return sunlight(even_grid(from_um, to_um)) / sunlight(own);
 }
 
 }  // namespace hilcam

@@ -58,6 +58,9 @@ struct CameraSheet {
     double well_dn = 0, max_dn = 0;      // converter's numbers, before companding
     double saturation_w_m2_sr_um = 0;
     std::vector<Scene> scenes;
+    // A black body of 300 K, and the noise-equivalent temperature difference of one pixel before it; 0: the
+    // camera sees no thermal light.
+    double black_body_e = 0, netd_k = 0;
     std::vector<Star> stars;
     double peak_share = 0, core_share = 0;  // shares of a star's electrons in the central pixel and in 3 x 3
     double faintest_magnitude = 0;
@@ -68,7 +71,11 @@ struct CameraSheet {
     double dynamic_range = 0;
 };
 
+inline constexpr double kRoomTemperature_k = 300;
+
 CameraSheet camera_sheet(const CameraModel& camera);
+// Returns the electrons of a surface's own radiance by the bins of a scenario.
+double emitted_e(const CameraSheet& sheet, const SpectralGrid& grid, const Spectrum& radiance_w_m2_sr_um);
 std::string to_text(const CameraSheet& sheet);
 
 // Returns which share of the camera's photo-electrons from a sunlit grey surface has wavelengths within the

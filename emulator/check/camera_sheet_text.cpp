@@ -89,6 +89,11 @@ void add_radiometry(const CameraSheet& s, std::string& out) {
         line(out, &scene == &s.scenes.front() ? "SNR" : "", "{:.1f} ({:.1f} dB) {}: {:.4g} e-{}", scene.snr,
              20 * std::log10(scene.snr), scene.name, scene.signal_e,
              scene.signal_e > s.full_scale_e ? ", saturated" : "");
+    if (s.netd_k > 0)
+        line(out, "thermal",
+             "black body of {:.0f} K: {:.4g} e-{}; NETD {:.1f} mK (one pixel, temporal noise)",
+             kRoomTemperature_k, s.black_body_e, s.black_body_e > s.full_scale_e ? ", saturated" : "",
+             1e3 * s.netd_k);
     for (const CameraSheet::Star& star : s.stars)
         line(out, &star == &s.stars.front() ? "stars" : "",
              "V = {:.0f} (B-V = 0): {:.4g} e-, {:.4g} e- in the pixel that it is centred on, SNR {:.2f}{}",

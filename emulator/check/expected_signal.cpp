@@ -36,9 +36,14 @@ ExpectedSignal expected_signal(const CameraSheet& camera, const LitObject& objec
     // The first scene of the sheet is white, at 1 au, and faces the Sun.
     const double white_e = camera.scenes.front().signal_e;
     const double lit = lit_share(object.phase_rad);
-    if (!(lit > 1e-6)) return {};
+    if (!(lit > 1e-6) && !(object.emitted_e > 0)) return {};
     const double disk_e = object.reflectance * white_e / (object.sun_au * object.sun_au) * object.sunlit *
                           lambert_sphere(object.phase_rad);
+    if (object.emitted_e > 0) {
+        const double all_e = disk_e + object.emitted_e;
+        return read_out(camera,
+                        object.area_px < kPoint_px ? all_e * object.area_px * camera.peak_share : all_e);
+    }
     const double lit_px = lit * object.area_px;
     return read_out(camera, lit_px < kPoint_px ? disk_e * object.area_px * camera.peak_share : disk_e / lit);
 }

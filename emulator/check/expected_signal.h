@@ -8,6 +8,8 @@
 // the Sun's disk where bodies cover part of it, and a the phase angle. The first bracket is the Lambert
 // sphere's phase law (Russell, Astrophysical Journal 43, 1916, p. 173), the second the lit share of the disk.
 //
+// To this comes what it emits by its temperature, the mean over its surfaces.
+//
 // Ignored: shape, shadows, glints, textures, lamps, and light from bodies. The estimate is good to about a
 // factor of two: enough to choose an exposure, not to predict a pixel. An object with a lit part of fewer
 // than 4 pixels counts as a point of light centred on one pixel.
@@ -20,8 +22,9 @@ struct LitObject {
     double reflectance = 0;
     double phase_rad = 0;
     double sun_au = 1;
-    double sunlit = 1;   // visible share of the Sun's disk
-    double area_px = 0;  // whole disk, lit and dark
+    double sunlit = 1;     // visible share of the Sun's disk
+    double area_px = 0;    // whole disk, lit and dark
+    double emitted_e = 0;  // by its own temperature, of each pixel on it
 };
 
 struct ExpectedSignal {

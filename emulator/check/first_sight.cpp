@@ -48,8 +48,8 @@ SeenObject::Place place_of(const SeenThing& thing, const FrameRaster& raster, co
     return alone ? SeenObject::Place::kHidden : SeenObject::Place::kOutside;
 }
 
-SeenObject seen(const SeenThing& thing, const LoadedObject& loaded, const FrameTruth& truth,
-                const CameraSheet& sheet, bool carries_camera) {
+SeenObject seen(const ScenarioConfig& s, const SeenThing& thing, const LoadedObject& loaded,
+                const FrameTruth& truth, const CameraSheet& sheet) {
     SeenObject out;
     out.loaded = loaded;
     out.distance_m = thing.distance_m;
@@ -65,10 +65,11 @@ SeenObject seen(const SeenThing& thing, const LoadedObject& loaded, const FrameT
     out.place = place_of(thing, truth.raster, sheet, out.off_boresight_rad, out.angular_radius_rad);
     const Vec3d camera_in_object_m = transposed(to_matrix(thing.world.world_from_body)) *
                                      (truth.camera.position_world_m - thing.world.position_world_m);
-    out.holds_camera = !carries_camera && is_within(camera_in_object_m, loaded.min_m, loaded.max_m);
+    out.holds_camera = s.mount.thing != thing.id && is_within(camera_in_object_m, loaded.min_m, loaded.max_m);
     out.expected =
         expected_signal(sheet, {loaded.mean_reflectance(), thing.phase_rad,
-                                truth.sun_distance_m / kAstronomicalUnit_m, out.sunlit, thing.silhouette_px});
+                                truth.sun_distance_m / kAstronomicalUnit_m, out.sunlit, thing.silhouette_px,
+                                emitted_e(sheet, SpectralGrid(s.spectrum_edges_um), loaded.mean_emission())});
     return out;
 }
 
@@ -102,7 +103,7 @@ FirstSight first_sight(const ScenarioConfig& s, const Renderer& renderer,
             (thing.id == kSunId ? out.shows_sun : out.shows_body) = true;
         // Terrain comes after the objects and is made during the run, so nothing is known of it here.
         if (thing.is_body || thing.id > s.objects.size()) continue;
-        out.objects.push_back(seen(thing, objects[thing.id - 1], truth, sheet, s.mount.thing == thing.id));
+        out.objects.push_back(seen(s, thing, objects[thing.id - 1], truth, sheet));
     }
     const Mat3d first_from_world = transposed(to_matrix(first_camera.world_from_body));
     out.from_first_m = first_from_world * (truth.camera.position_world_m - first_camera.position_world_m);

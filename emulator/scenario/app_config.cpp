@@ -83,8 +83,8 @@ Fields fields(ScenarioConfig& s) {
         section("earth_surface", s.earth_surface,
                 "land, sea, clouds and lights of the Earth (docs/earth.md)"),
         section("stars", s.stars, "stars in the sky"),
-        numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
-                "edges of the spectral bins"),
+        numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {kShortest_um, kLongest_um}, {2, kMaxBins + 1},
+                "edges of the spectral bins; beyond 2.5 they are thermal (docs/thermal.md)"),
         optional(section("rays", s.models.rays,
                          "ray model of the pixels, where it differs from that of the camera's shutter"),
                  s.has_rays),
@@ -259,6 +259,11 @@ RenderModels models_of(const ScenarioConfig& s) {
 void validate(const ScenarioConfig& s) {
     at_key("time_utc", [&] { parse_utc(s.time_utc); });
     at_key("spectrum_edges_um", [&] { SpectralGrid grid(s.spectrum_edges_um); });
+    if (SpectralGrid(s.spectrum_edges_um).has_thermal() && s.models.radiance == "reflected")
+        throw KeyError(
+            "radiance",
+            "found 'reflected' with spectrum_edges_um beyond 2.5 um, where surfaces emit; accepted: "
+            "emissive");
     if (s.has_camera_pose && s.camera_motion)
         throw KeyError("camera_motion", "a scenario has either 'camera_pose' or 'camera_motion'; found both");
     check_site(s);

@@ -150,6 +150,9 @@ Fields fields(ObjectConfig& o) {
         section("generate", o.generate,
                 "mesh that a program makes at first use, kept on disk; replaces a file"),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
+        number("temperature_k", o.temperature_k, 1, {0, 6000},
+               "temperature of the surfaces that have none of their own, used with radiance: emissive; 0: "
+               "they emit nothing"),
         optional(section("pose", o.pose, "pose of the object until a command changes it"), o.has_pose),
         section("motion", o.motion, "motion of the object until a command changes it; replaces pose"),
         section("materials", o.materials, "materials in place of the mesh's own"),

@@ -71,6 +71,7 @@ struct ObjectConfig {
     std::filesystem::path albedo_file;
     std::string albedo_where;  // place of the key in the scenario
     double albedo_reference = 0;
+    double temperature_k = 0;  // holds for surfaces that have none
     std::optional<GeneratedMeshConfig> generate;
     double scale = 1;
     PoseConfig pose;

@@ -57,16 +57,24 @@ Material load_material(const MaterialConfig& m, const SpectralGrid& grid) {
 
 namespace {
 
-std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, const SpectralGrid& grid) {
+// Returns the temperature of a surface [K]: its rule's, its material's, or the object's.
+double temperature_k(const SurfaceConfig* rule, const ObjectConfig& object) {
+    if (rule && rule->has_temperature) return rule->temperature_k;
+    if (rule && rule->material.temperature_k > 0) return rule->material.temperature_k;
+    return object.temperature_k;
+}
+
+std::vector<Material> load_materials(const Mesh& mesh, const ObjectConfig& object, const SpectralGrid& grid) {
     std::vector<Material> materials;
     for (const MeshSurface& surface : mesh.surfaces) {
-        const SurfaceConfig* config = find_surface(set.surfaces, surface.name);
-        if (!config) {
+        const SurfaceConfig* rule = find_surface(object.materials.surfaces, surface.name);
+        if (rule) {
+            materials.push_back(load_material(rule->material, grid));
+            materials.back().texture = surface.base_color_texture;
+        } else {
             materials.push_back(make_material(surface, grid));
-            continue;
         }
-        materials.push_back(load_material(config->material, grid));
-        materials.back().texture = surface.base_color_texture;
+        set_temperature(materials.back(), grid, temperature_k(rule, object));
     }
     return materials;
 }
@@ -84,8 +92,8 @@ void tell(const Mesh& mesh, float scale, const std::vector<Material>& materials,
     if (first)
         for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
             const SurfaceConfig* rule = find_surface(config.materials.surfaces, mesh.surfaces[i].name);
-            out.surfaces.push_back(
-                {mesh.surfaces[i].name, 0, 0, rule ? rule->name : "", reflectance_of(materials[i], grid)});
+            out.surfaces.push_back({mesh.surfaces[i].name, 0, 0, rule ? rule->name : "",
+                                    reflectance_of(materials[i], grid), materials[i].emission.mean()});
         }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         std::array<Vec3d, 3> corner;
@@ -195,7 +203,7 @@ UnscaledObject make_object(Mesh mesh, const ObjectConfig& config, const Scenario
         const Progress progress("levels of detail of " + config.name);
         object.levels = cached_levels(object.mesh, user_cache(!scenario.is_used_once));
     }
-    object.materials = load_materials(object.mesh, config.materials, grid);
+    object.materials = load_materials(object.mesh, config, grid);
     tell(object.mesh, out.scale, object.materials, config, grid, found);
     if (config.has_albedo_file) brighten(object, brightest, config, grid);
     return out;
@@ -310,6 +318,16 @@ double LoadedObject::mean_reflectance() const {
     for (const LoadedSurface& surface : surfaces)
         area_m2 += surface.area_m2, sum_m2 += surface.area_m2 * surface.reflectance;
     return area_m2 > 0 ? sum_m2 / area_m2 : 0;
+}
+
+Spectrum LoadedObject::mean_emission() const {
+    double area_m2 = 0;
+    Spectrum sum;
+    for (const LoadedSurface& surface : surfaces) {
+        area_m2 += surface.area_m2;
+        sum += static_cast<float>(surface.area_m2) * surface.emission;
+    }
+    return area_m2 > 0 ? static_cast<float>(1 / area_m2) * sum : Spectrum{};
 }
 
 }  // namespace hilcam

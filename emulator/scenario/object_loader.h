@@ -18,6 +18,7 @@ struct LoadedSurface {
     double area_m2 = 0;
     std::string rule;  // rule of the object's materials that applies to it; empty: look from the mesh file
     double reflectance = 0;  // approximate share of sunlight reflected in all directions
+    Spectrum emission;       // radiance by its temperature [W m^-2 sr^-1 um^-1]
 };
 struct LoadedObject {
     std::string name;
@@ -28,6 +29,7 @@ struct LoadedObject {
     std::vector<std::string> left_out;    // looks in the mesh file that are not used (Mesh::left_out)
 
     double mean_reflectance() const;  // weighted by area
+    Spectrum mean_emission() const;   // the same
 };
 
 // Loads a scenario's objects, each kind once, and puts them into the scene at their sizes and with their

@@ -227,6 +227,23 @@ void look_at_shutters(const ScenarioConfig& s, Lines& out) {
                         out);
 }
 
+// Surfaces at absolute zero are probably forgotten ones.
+void look_at_temperatures(const ScenarioConfig& s, Lines& out) {
+    const bool thermal = SpectralGrid(s.spectrum_edges_um).has_thermal();
+    for (std::size_t i = 0; i < s.objects.size(); ++i) {
+        const ObjectConfig& object = s.objects[i];
+        const std::string key = fmt::format("objects.{}.temperature_k", i);
+        if (!thermal && s.models.radiance == "reflected" && object.temperature_k > 0)
+            out.push_back(s.places.at(key, key + ": has no effect with radiance: reflected"));
+        if (thermal && !(object.temperature_k > 0))
+            out.push_back(s.places.at(
+                fmt::format("objects.{}", i),
+                fmt::format("{}: not given, so surfaces of '{}' without a temperature of their own emit "
+                            "nothing beyond 2.5 um",
+                            key, object.name)));
+    }
+}
+
 // Warns of places and bodies that are named but missing in the scenario.
 void look_at_frames(const ScenarioConfig& s, Lines& out) {
     const bool shows_earth = s.bodies[index_of(BodyId::kEarth)].visible;
@@ -336,6 +353,7 @@ std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
     look_at_shutters(scenario, out);
     look_at_lamps(scenario, out);
     look_at_frames(scenario, out);
+    look_at_temperatures(scenario, out);
     return out;
 }
 

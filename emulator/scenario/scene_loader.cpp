@@ -90,9 +90,23 @@ void load_bodies(const ScenarioConfig& scenario, const SpectralGrid& grid, Scene
     }
 }
 
+// The models of the Earth's air and ground end at 2.5 um.
+void require_no_thermal_air(const ScenarioConfig& s, const SpectralGrid& grid) {
+    if (!grid.has_thermal()) return;
+    if (s.atmosphere.model != "none")
+        throw InputError(
+            s.places.at("atmosphere.model", "atmosphere.model: found '" + s.atmosphere.model +
+                                                "' with spectrum_edges_um beyond 2.5 um; accepted: none"));
+    if (!s.earth_surface.map.empty())
+        throw InputError(s.places.at("earth_surface.map",
+                                     "earth_surface.map: found with spectrum_edges_um beyond 2.5 um; "
+                                     "accepted: none, the Earth is then even (earth.heat)"));
+}
+
 void load_air_and_earth(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,
                         Scene& scene) {
     if (!scene.body(BodyId::kEarth).visible) return;
+    require_no_thermal_air(scenario, grid);
     const AtmosphereConfig& air = scenario.atmosphere;
     const AtmosphereCache cache(user_cache_at(air.cache, !scenario.is_used_once));
     std::optional<AtmosphereTable> table;

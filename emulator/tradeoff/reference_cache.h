@@ -20,7 +20,7 @@ std::string reference_key(const ScenarioConfig& reference, const Pose& body, con
 
 // Raised when the same key would give another reference, after changes of the path tracer, the sensor's
 // optics, a default, or a generated mesh.
-inline constexpr std::uint32_t kReferenceVersion = 5;
+inline constexpr std::uint32_t kReferenceVersion = 6;
 
 // Returns the name of the key's file in the cache.
 std::string reference_name(const std::string& key);

@@ -106,9 +106,9 @@ void add_picture(const RadianceImage& radiance, const SpectralGrid& grid, const 
     for (int b = 0; b < radiance.planes(); ++b)
         channels.push_back({layer + bin_name(grid, b), radiance.plane(b)});
     const ColorBands bands(grid);
-    std::array<std::vector<float>, 3> planes = {mean_of_bins(radiance, grid, bands.spectrum({1, 0, 0})),
-                                                mean_of_bins(radiance, grid, bands.spectrum({0, 1, 0})),
-                                                mean_of_bins(radiance, grid, bands.spectrum({0, 0, 1}))};
+    std::array<std::vector<float>, 3> planes = {mean_of_bins(radiance, grid, bands.red()),
+                                                mean_of_bins(radiance, grid, bands.green()),
+                                                mean_of_bins(radiance, grid, bands.blue())};
     const auto add = [&](const char* name, std::vector<float>&& plane) {
         made.push_back(std::move(plane));
         channels.push_back({layer + name, made.back()});

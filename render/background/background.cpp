@@ -64,8 +64,8 @@ void Background::choose_quick_ways() {
     if (disks().empty() || scene_.air) return;
     const PlacedBody& body = disks()[0];
     const SceneBody& scene = scene_[body.id];
-    if (!scene.look.plain_lambert() || !scene.map.empty() || body.may_be_eclipsed || body.in_points ||
-        scene_.is_modelled(body.id))
+    if (!scene.look.plain_lambert() || !scene.look.heat().none() || !scene.map.empty() ||
+        body.may_be_eclipsed || body.in_points || scene_.is_modelled(body.id))
         return;
     plain_ = &body;
     plain_radiance_ = static_cast<float>(1 / kPi) * (scene.look.albedo() * body.irradiance_w_m2_um);

@@ -27,8 +27,8 @@ BodyRadiance::BodyRadiance(const SceneBodies& scene, const SpectralGrid& grid)
         const Spectrum mean = bands_.spectrum(mean_texel((*scene_.all)[i].map));
         if ((*scene_.all)[i].map_reference > 0) {
             const auto one = static_cast<float>(1 / (*scene_.all)[i].map_reference);
-            map_factor_[i].bin.fill(one);
-            map_mean_[i] = one * mean;
+            for (int b = 0; b < grid.solar_bins(); ++b) map_factor_[i][b] = one;
+            map_mean_[i] = map_factor_[i] * mean;
             continue;
         }
         if ((*scene_.all)[i].look.plain_lambert()) {
@@ -84,7 +84,7 @@ Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_v
         light = light * scene_.air->sun_transmittance(p, s);
         light += static_cast<float>(1 / kPi) * (scene.look.albedo() * scene_.air->sky_irradiance(p, s));
     } else if (mu0 <= 0 && body.shine_count == 0) {
-        return {};
+        return scene.look.heat().none() ? Spectrum{} : scene.look.heat().radiance(0);
     }
     if (mu0 > 0 && scene_.has_rings(body.id))
         light = static_cast<float>(SaturnRings::transmittance(point_m, body.sun_dir)) * light;
@@ -112,8 +112,8 @@ Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_v
     }
     if (body.may_be_eclipsed)
         light = light * eclipses.sun_seen_from(body.id, transposed(body.fixed_from_world) * point_m);
-    if (body.shine_count == 0) return body.irradiance_w_m2_um * light;
     Spectrum out = body.irradiance_w_m2_um * light;
+    if (!scene.look.heat().none()) out += scene.look.heat().radiance(static_cast<float>(mu0));
     for (std::size_t k = 0; k < body.shine_count; ++k) {
         const PlacedBody::Shine& shine = body.shine[k];
         out += shine.irradiance_w_m2_um * texel *
@@ -154,20 +154,30 @@ std::string BodyRadiance::describe(const PlacedBody& body) const {
     return out;
 }
 
-Spectrum BodyRadiance::point_irradiance(const PlacedBody& body) const {
+namespace {
+
+// Returns the ellipse that a body shows, over pi and the square of its distance. Its semi-axes are a and
+// sqrt(a^2 sin^2 + b^2 cos^2) of the camera's latitude.
+double outline_over_distance(const PlacedBody& body) {
+    const double a = body.figure.equatorial_radius_m, b = body.figure.polar_radius_m;
+    const double sine = body.camera_m.z / body.distance_m, distance2 = body.distance_m * body.distance_m;
+    return a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / distance2;
+}
+
+}  // namespace
+
+Spectrum BodyRadiance::point_reflected(const PlacedBody& body) const {
     const Figure& figure = body.figure;
-    const double a = figure.equatorial_radius_m, b = figure.polar_radius_m;
+    const double a = figure.equatorial_radius_m;
     const Vec3d to_camera = body.camera_m / body.distance_m;
     if (scene_.is_modelled(body.id))
         return static_cast<float>(a * a / (body.distance_m * body.distance_m)) *
                (body.irradiance_w_m2_um * scene_.earth->disk_albedo(to_camera, body.sun_dir, 400));
     const DiskView view{to_camera, body.sun_dir};
     const BodyLook& look = scene_[body.id].look;
-    // The semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's latitude.
-    const double sine = to_camera.z, distance2 = body.distance_m * body.distance_m;
-    const double area_ratio = a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / distance2;
+    const double distance2 = body.distance_m * body.distance_m;
     Spectrum out =
-        static_cast<float>(area_ratio) *
+        static_cast<float>(outline_over_distance(body)) *
         (body.irradiance_w_m2_um * look.disk_albedo(view.phase_rad()) * map_mean_[index_of(body.id)]);
     if (!look.is_measured()) return out;
     if (body.id == BodyId::kSaturn && saturn_light_) {
@@ -177,6 +187,14 @@ Spectrum BodyRadiance::point_irradiance(const PlacedBody& body) const {
                static_cast<float>(parts.rings_m2 / distance2) * (body.irradiance_w_m2_um * rings_.color());
     }
     return static_cast<float>(latitude_factor(body.id, figure, view)) * out;
+}
+
+Spectrum BodyRadiance::point_irradiance(const PlacedBody& body) const {
+    const Spectrum reflected = point_reflected(body);
+    const BodyHeat& heat = scene_[body.id].look.heat();
+    if (heat.none()) return reflected;
+    const DiskView view{body.camera_m / body.distance_m, body.sun_dir};
+    return reflected + static_cast<float>(outline_over_distance(body)) * heat.disk_w_m2_um(view.phase_rad());
 }
 
 }  // namespace hilcam

@@ -50,6 +50,8 @@ class BodyRadiance {
     std::string describe(const PlacedBody& body) const;
 
   private:
+    Spectrum point_reflected(const PlacedBody& body) const;
+
     SceneBodies scene_;
     ColorBands bands_;
     SaturnRings rings_;

@@ -62,11 +62,15 @@ PlanetshineSource PlacedBodies::light_of(const PlacedBody& body, Vec3d to_body_m
     Spectrum most = scene_[body.id].look.max_sr();
     if (scene_.is_modelled(body.id)) most.bin.fill(EarthModel::kMaxOverSun);
     const float sun_share = body.irradiance_w_m2_um[0] / std::max(1e-30f, sun_irradiance_1au_[0]);
+    Spectrum emitted;
+    if (const BodyHeat& heat = scene_[body.id].look.heat(); !heat.none())
+        for (int b = 0; b < kMaxBins; ++b)
+            if (sun_irradiance_1au_[b] > 0) emitted[b] = heat.most()[b] / sun_irradiance_1au_[b];
     const double radius_m = body.figure.equatorial_radius_m + scene_.top_m(body.id);
     const double sine = std::min(1.0, radius_m / length(to_body_m));
     return {normalized(to_body_m), static_cast<float>(sine * sine),
             static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
-            body.globe_factor * sun_share * most};
+            body.globe_factor * sun_share * most + emitted};
 }
 
 void PlacedBodies::show(const SceneBodies& scene) {

@@ -63,7 +63,9 @@ struct MaterialKeys {
     double roughness = 0.3;                    // metal, dielectric: GGX alpha is its square; oren_nayar: r
     double refractive_index = 1.5;             // dielectric, glass
     double temperature_k = 0;                  // 0: no emission
-    std::filesystem::path table;               // a measured BRDF: MERL's .binary or our CSV
+    Curve infrared_emissivity;                 // hemispherical, of the thermal bins
+    bool has_infrared_emissivity = false;
+    std::filesystem::path table;  // a measured BRDF: MERL's .binary or our CSV
 };
 
 inline double largest_value(const Curve& curve) {
@@ -77,9 +79,10 @@ struct BrdfMaking {
     std::shared_ptr<const BrdfTable> table;  // read from keys.table; null if that is empty
     BsdfInputs look;                         // base: averages of keys.reflectance
 
-    // Throws InputError if the curve does not cover the grid.
+    // Throws InputError if the curve does not cover the grid below the thermal bins; in these it keeps its
+    // end.
     Spectrum average(const Curve& curve, const std::string& key) const {
-        require_cover(curve, grid, key);
+        require_solar_cover(curve, grid, key);
         return grid.average(curve);
     }
 };

@@ -62,9 +62,8 @@ FrameSetup::FrameSetup(Scene scene, const SpectralGrid& grid, const ImageGeometr
         shown_.push_back(object.levels.front().get());
     }
     full_mask_.fill();
-    const bool emission = radiance_model_->emits() && any_material(objects_, [](const Material& m) {
-                              return max_component(m.emission) > 0;
-                          });
+    const bool emission = radiance_model_->emits() &&
+                          any_material(objects_, [](const Material& m) { return !m.emission.none(); });
     indirect_settings_ = {static_cast<float>(quality.source_step_rad), lamps_.all().size(), emission};
     if (!scene.light_later) indirect_ = make_indirect_cache();
     // Rows of different instants sweep over more than a field, and draw a star several times if they are slow

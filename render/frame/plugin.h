@@ -20,7 +20,7 @@
 namespace hilcam {
 
 // Raised with every change of what plug-ins see.
-inline constexpr std::uint32_t kPluginInterface = 33;
+inline constexpr std::uint32_t kPluginInterface = 34;
 
 struct PluginInfo {
     std::uint32_t interface_version;

@@ -170,7 +170,7 @@ ImageGeometry ground_geometry(const ImageGeometry& picture, int step_px) {
 
 bool is_plain_ground(const Material& material) {
     return !material.has_facets() && !material.transmits() && material.texture < 0 &&
-           max_component(material.emission) <= 0;
+           material.emission.none();
 }
 
 bool add_ground_light(Tile& tile) {

@@ -92,7 +92,7 @@ bool meet_the_dark(const FrameContext& frame, const MirrorRays::Packet& packet) 
                              Vec3f{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
         const bool sunlit = dot(normal, sun) * dot(normal, packet.rays.dir(k)) < 0;
         if (sunlit || max_component(material.base) + max_component(material.highlight) > kDark ||
-            max_component(material.emission) > 0)
+            !material.emission.none())
             return false;
     }
     return true;

@@ -129,7 +129,8 @@ void ProbeSenders::light_block(const RadiosityMember& member, std::size_t first,
         ProbeSender& sender = senders[n];
         send(light, n, points, sender);
         if (source.kind == RadiositySource::Kind::kGlow)
-            sender.diffuse = PackedSpectrum(light.material(table.probes().probes()[n].surface).emission);
+            sender.diffuse =
+                PackedSpectrum(light.material(table.probes().probes()[n].surface).emission.mean());
         if (cone && sender.alpha > 0) widen(light, n, source, sender);
         shines_[base_[member.object] + n] = sender.alpha > 0 || sender.diffuse.greatest() > 0;
     }

@@ -25,11 +25,14 @@ ColorBands::ColorBands(const SpectralGrid& grid)
       // 20 nm ramps, so that a bin edge near a band edge does not switch.
       red_(grid.average({{0.57, 0.59}, {0, 1}, {}})),
       green_(grid.average({{0.48, 0.50, 0.57, 0.59}, {0, 1, 1, 0}, {}})),
-      blue_(grid.average({{0.48, 0.50}, {1, 0}, {}})) {}
+      blue_(grid.average({{0.48, 0.50}, {1, 0}, {}})) {
+    for (int b = grid.solar_bins(); b < bins_; ++b) red_[b] = 0, thermal_[b] = 1;
+}
 
 Spectrum ColorBands::spectrum(Vec3f rgb) const {
     Spectrum out;
-    for (int b = 0; b < bins_; ++b) out[b] = red_[b] * rgb.x + green_[b] * rgb.y + blue_[b] * rgb.z;
+    for (int b = 0; b < bins_; ++b)
+        out[b] = red_[b] * rgb.x + green_[b] * rgb.y + blue_[b] * rgb.z + thermal_[b];
     return out;
 }
 

@@ -16,17 +16,22 @@ namespace hilcam {
 float linear_from_srgb(std::uint8_t code);
 
 // The weights of a texel's red, green and blue in each bin; they sum to 1. Blue is below 0.49 um, green from
-// there to 0.58 um, red above; near infrared counts as red, because a picture has no more than that.
+// there to 0.58 um, red above; near infrared counts as red, because a picture has no more than that. Colours
+// say nothing of thermal bins: they are 1 there, and the weights 0.
 class ColorBands {
   public:
     explicit ColorBands(const SpectralGrid& grid);
     Spectrum spectrum(Vec3f linear_rgb) const;
+    const Spectrum& red() const { return red_; }
+    const Spectrum& green() const { return green_; }
+    const Spectrum& blue() const { return blue_; }
     // Returns the weights of red, green and blue in one bin.
     std::array<float, 3> shares(int bin) const { return {red_[bin], green_[bin], blue_[bin]}; }
 
   private:
     int bins_;
     Spectrum red_, green_, blue_;
+    Spectrum thermal_;  // 1 in thermal bins
 };
 
 // A picture with its mip levels: each level has half the width and height of the one before, averaged in

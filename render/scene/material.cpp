@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "render/scene/material_albedo.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -30,7 +31,7 @@ std::vector<std::string> keys_of(std::size_t model) {
 
 std::string why_idle(const MaterialConfig& c, const std::string& key) {
     std::vector<std::string> taken = keys_of(c.model);
-    taken.insert(taken.end(), {"temperature_k", "source", "model"});
+    taken.insert(taken.end(), {"temperature_k", "infrared_emissivity", "source", "model"});
     if (std::find(taken.begin(), taken.end(), key) != taken.end()) return {};
     // A surface emits what it does not reflect, whatever its model.
     if (key == "reflectance" && c.temperature_k > 0) return {};
@@ -66,6 +67,11 @@ Fields fields(MaterialConfig& c) {
     list.push_back(number(
         "temperature_k", c.temperature_k, 1, {0, 6000},
         "temperature of the surface for thermal emission, used with radiance: emissive; 0: no emission"));
+    list.push_back(optional(
+        curve("infrared_emissivity", c.infrared_emissivity, fraction,
+              "hemispherical emissivity beyond 2.5 um; left out: 1 - reflectance, if that is a curve "
+              "that reaches so far"),
+        c.has_infrared_emissivity));
     list.push_back(
         path("table", c.table, "measured BRDF: MERL .binary, or CSV as described in docs/materials.md"));
     for (Field& field : list) field.why_idle = [&c, key = field.key] { return why_idle(c, key); };
@@ -82,17 +88,21 @@ void validate(const MaterialConfig& c) {
 
 Fields fields(SurfaceConfig& c) {
     return {
+        optional(number("temperature_k", c.temperature_k, 1, {0, 6000},
+                        "temperature of the surface, in place of its material's"),
+                 c.has_temperature),
         required(text("name", c.name, "name of the mesh surface; a trailing * matches any ending")),
         required(section("material", c.material,
                          "material of the surface: a mapping, or a file of configs/materials/")),
     };
 }
 
-Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
-                       std::shared_ptr<const BrdfTable> table) {
-    require_cover(config.reflectance, grid, "reflectance");
-    const Spectrum reflectance = grid.average(config.reflectance);
-    BrdfMaking making{config, grid, std::move(table), {0, reflectance, {}}};
+namespace {
+
+// Makes a material of which only the model's own spectra and the emission are missing.
+Material modelled(const MaterialConfig& config, const SpectralGrid& grid,
+                  const std::shared_ptr<const BrdfTable>& table, const Spectrum& reflectance) {
+    BrdfMaking making{config, grid, table, {0, reflectance, {}}};
     Material m;
     BrdfModels::for_each([&]<class Model>() {
         if (config.model == kModel<Model>) m.brdf = Model(config, making);
@@ -100,11 +110,66 @@ Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
     m.base = making.look.base;
     m.highlight = making.look.highlight;
     m.ggx_alpha = making.look.alpha;
-    if (config.temperature_k > 0)
-        for (int b = 0; b < grid.size(); ++b)
-            m.emission[b] = static_cast<float>(1 - static_cast<double>(reflectance[b])) *
-                            static_cast<float>(planck_w_m2_sr_um(grid.center_um(b), config.temperature_k));
+    // Glass is opaque beyond 2.5 um, unless its curve says otherwise.
+    if (config.model == kModel<brdf::Glass> && config.transmittance.value.size() < 2)
+        for (int b = grid.solar_bins(); b < grid.size(); ++b) m.highlight[b] = 0;
+    // Phong's two parts keep their proportion.
+    if (config.model == kModel<brdf::Phong>)
+        for (int b = grid.solar_bins(); b < grid.size(); ++b) m.highlight[b] *= reflectance[b];
     return m;
+}
+
+// Finds the reflectance with which the model reflects `wanted` of light from all directions in the thermal
+// bins, by bisection in all of them at once: models differ in what their reflectance means.
+Material of_emissivity(const MaterialConfig& config, const SpectralGrid& grid,
+                       const std::shared_ptr<const BrdfTable>& table, Spectrum reflectance) {
+    const Spectrum emissivity = grid.average(config.infrared_emissivity);
+    if (config.model == kModel<brdf::Veil>) {
+        // A veil's threads alone have it.
+        for (int b = grid.solar_bins(); b < grid.size(); ++b) reflectance[b] = 1 - emissivity[b];
+        return modelled(config, grid, table, reflectance);
+    }
+    Spectrum low, high;
+    high.bin.fill(1);
+    constexpr int kHalvings = 14;
+    for (int i = 0; i < kHalvings; ++i) {
+        for (int b = grid.solar_bins(); b < grid.size(); ++b) reflectance[b] = 0.5f * (low[b] + high[b]);
+        const MaterialAlbedo albedo(modelled(config, grid, table, reflectance), MaterialAlbedo::kExact);
+        for (int b = grid.solar_bins(); b < grid.size(); ++b)
+            (albedo.white_lobe()[b] + albedo.white_base()[b] < 1 - emissivity[b] ? low : high)[b] =
+                reflectance[b];
+    }
+    return modelled(config, grid, table, reflectance);
+}
+
+// True when the reflectance says itself what the thermal bins reflect.
+bool reflectance_reaches(const MaterialConfig& config, const SpectralGrid& grid) {
+    const std::vector<double>& um = config.reflectance.wavelength_um;
+    return um.size() >= 2 && um.back() >= grid.to_um(grid.size() - 1);
+}
+
+}  // namespace
+
+Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
+                       std::shared_ptr<const BrdfTable> table) {
+    require_solar_cover(config.reflectance, grid, "reflectance");
+    const Spectrum reflectance = grid.average(config.reflectance);
+    const bool has_emissivity = config.has_infrared_emissivity;
+    if (grid.has_thermal() && !has_emissivity && !reflectance_reaches(config, grid) &&
+        config.model != kModel<brdf::Glass>)
+        throw InputError(
+            "infrared_emissivity: not given, and spectrum_edges_um reach beyond 2.5 um; accepted: a number, "
+            "a "
+            "curve, or a reflectance by wavelength that reaches as far");
+    const bool fits = grid.has_thermal() && has_emissivity && config.model != kModel<brdf::Glass>;
+    Material m =
+        fits ? of_emissivity(config, grid, table, reflectance) : modelled(config, grid, table, reflectance);
+    set_temperature(m, grid, config.temperature_k);
+    return m;
+}
+
+void set_temperature(Material& material, const SpectralGrid& grid, double temperature_k) {
+    material.emission = ThermalEmission(material, grid, temperature_k);
 }
 
 namespace {
@@ -117,13 +182,40 @@ Material clear_sheet(const MeshSurface& surface, const SpectralGrid& grid) {
     return make_material(sheet, grid);
 }
 
+// Three broad bands with 20 nm ramps between them.
+Curve color_of(const MeshSurface& surface) {
+    const double red = static_cast<double>(surface.base_color.x),
+                 green = static_cast<double>(surface.base_color.y),
+                 blue = static_cast<double>(surface.base_color.z);
+    return {
+        {kShortest_um, 0.48, 0.50, 0.57, 0.59, kThermalFrom_um}, {blue, blue, green, green, red, red}, {}};
+}
+
 Material veil_of(const MeshSurface& surface, const Curve& color, const SpectralGrid& grid) {
     MaterialConfig veil;
     veil.model = kModel<brdf::Veil>;
     veil.reflectance = Curve::constant(1);
     veil.cover = static_cast<double>(surface.opacity);
+    veil.infrared_emissivity = Curve::constant(kUnknownEmissivity);
+    veil.has_infrared_emissivity = true;
     Material out = make_material(veil, grid);
-    out.base = out.base * grid.average(color);
+    const Spectrum colors = grid.average(color);
+    for (int b = 0; b < grid.solar_bins(); ++b) out.base[b] *= colors[b];
+    out.texture = surface.base_color_texture;
+    return out;
+}
+
+// The same look as a material of a file, which has an emissivity.
+Material thermal_look(const MeshSurface& surface, const Curve& color, const SpectralGrid& grid) {
+    const bool is_metal = surface.metallic >= 0.5f;
+    MaterialConfig look;
+    look.model = is_metal ? kModel<brdf::Metal> : kModel<brdf::Dielectric>;
+    look.reflectance = color;
+    look.roughness = static_cast<double>(std::clamp(surface.roughness, 0.03f, 1.0f));
+    look.refractive_index = static_cast<double>(surface.refractive_index);
+    look.infrared_emissivity = Curve::constant(is_metal ? kUnknownMetalEmissivity : kUnknownEmissivity);
+    look.has_infrared_emissivity = true;
+    Material out = make_material(look, grid);
     out.texture = surface.base_color_texture;
     return out;
 }
@@ -132,12 +224,9 @@ Material veil_of(const MeshSurface& surface, const Curve& color, const SpectralG
 
 Material make_material(const MeshSurface& surface, const SpectralGrid& grid) {
     if (surface.transmission >= 0.5f) return clear_sheet(surface, grid);
-    // Three broad bands with 20 nm ramps between them.
-    const Curve color{{0.48, 0.50, 0.57, 0.59},
-                      {static_cast<double>(surface.base_color.z), static_cast<double>(surface.base_color.y),
-                       static_cast<double>(surface.base_color.y), static_cast<double>(surface.base_color.x)},
-                      {}};
+    const Curve color = color_of(surface);
     if (surface.opacity < 1) return veil_of(surface, color, grid);
+    if (grid.has_thermal()) return thermal_look(surface, color, grid);
     // glTF 2.0, appendix B, blends both looks. Here the larger share decides, and a half metal becomes a
     // darker one.
     const float metallic = std::clamp(surface.metallic, 0.0f, 1.0f);

@@ -9,31 +9,32 @@ namespace hilcam {
 namespace {
 
 // The mean weight of samples on a grid of places: the directional albedo.
-Spectrum total(const Bsdf& at, float cosine) {
-    constexpr int kChoices = 8, kGrid = 16;
+Spectrum total(const Bsdf& at, float cosine, MaterialAlbedo::Samples samples) {
+    const auto [choices, grid] = samples;
+    const auto middle = [](int i, int count) {
+        return (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+    };
     const Vec3f normal{0, 0, 1}, view{std::sqrt(std::max(0.0f, 1 - cosine * cosine)), 0, cosine};
     Spectrum sum;
-    for (int c = 0; c < kChoices; ++c)
-        for (int i = 0; i < kGrid; ++i)
-            for (int k = 0; k < kGrid; ++k) {
-                const BrdfSample sample = brdf_sample(
-                    at, normal, view,
-                    {(static_cast<float>(c) + 0.5f) / kChoices, (static_cast<float>(i) + 0.5f) / kGrid,
-                     (static_cast<float>(k) + 0.5f) / kGrid});
+    for (int c = 0; c < choices; ++c)
+        for (int i = 0; i < grid; ++i)
+            for (int k = 0; k < grid; ++k) {
+                const BrdfSample sample =
+                    brdf_sample(at, normal, view, {middle(c, choices), middle(i, grid), middle(k, grid)});
                 if (sample.valid && !sample.transmits) sum += sample.weight;
             }
-    return (1.0f / (kChoices * kGrid * kGrid)) * sum;
+    return (1.0f / static_cast<float>(choices * grid * grid)) * sum;
 }
 
 }  // namespace
 
-MaterialAlbedo::MaterialAlbedo(const Material& material) {
+MaterialAlbedo::MaterialAlbedo(const Material& material, Samples samples) {
     const Bsdf at{&material, material.has_facets() ? material.ggx_alpha : 0.0f, material.base,
                   material.highlight};
     for (int i = 0; i <= kSteps; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const float cosine = std::max(1e-3f, static_cast<float>(i) / kSteps);
-        const Spectrum all = total(at, cosine);
+        const Spectrum all = total(at, cosine, samples);
         if (!material.has_facets()) {
             base_[k] = all;
         } else {

@@ -110,6 +110,7 @@ double magnitude_v_1au(BodyId id, double phase_rad) {
 
 BodyConfig default_body(BodyId id) {
     BodyConfig config;
+    config.heat = default_heat(id);
     if (id == BodyId::kEarth) {
         config.albedo = Curve::constant(0.3);
         return config;
@@ -155,6 +156,7 @@ Fields fields(BodyConfig& c) {
         number("height_step_m", c.height_step_m, 1, {1e-3, 1e6}, "height per unit of height_map"),
         number("height_zero_m", c.height_zero_m, 1, {-1e6, 1e6}, "height at the value 0 of height_map"),
         flag("planetshine", c.planetshine, "true: light from the other bodies is added (earthshine)"),
+        section("heat", c.heat, "temperature and emission beyond 2.5 um (docs/thermal.md)"),
         flag("rings", c.rings,
              "true: the rings are drawn, shade the body and are shaded by it; default: true for saturn. As a "
              "point the body has their light either way"),
@@ -190,8 +192,9 @@ BodyLook::BodyLook(BodyId id, const BodyConfig& config, const SpectralGrid& grid
     : law_(config.law),
       measured_(config.measured_magnitude && config.law != SurfaceLaw::kHapke),
       albedo_(grid.average(config.albedo)),
+      heat_(config.heat, grid),
       bins_(grid.size()) {
-    require_cover(config.albedo, grid, "albedo");
+    require_solar_cover(config.albedo, grid, "albedo");
     if (law_ == SurfaceLaw::kHapke) {
         if (!config.has_albedo && id != BodyId::kMoon)
             throw InputError(
@@ -274,6 +277,14 @@ Spectrum BodyLook::max_sr() const {
 
 Spectrum BodyLook::reflectance_sr(float mu0, float mu, float cos_phase) const {
     if (!(mu0 > 0)) return {};
+    if (heat_.none()) return solar_reflectance_sr(mu0, mu, cos_phase);
+    Spectrum out = solar_reflectance_sr(mu0, mu, cos_phase);
+    for (int b = 0; b < bins_; ++b)
+        if (heat_.is_thermal(b)) out[b] = mu0 / static_cast<float>(kPi) * heat_.reflected()[b];
+    return out;
+}
+
+Spectrum BodyLook::solar_reflectance_sr(float mu0, float mu, float cos_phase) const {
     if (law_ == SurfaceLaw::kHapke) {
         const HapkeGeometry g = hapke_geometry(hapke_, std::max(mu, 1e-3f), mu0, cos_phase);
         Spectrum out;
@@ -295,7 +306,12 @@ Spectrum BodyLook::disk_albedo(double phase_rad) const {
         const auto share = static_cast<float>(degrees - static_cast<double>(i));
         return (1 - share) * disk_by_degree_[i] + share * disk_by_degree_[i + 1];
     }
-    return static_cast<float>(disk_brightness(phase_rad)) * albedo_;
+    Spectrum out = static_cast<float>(disk_brightness(phase_rad)) * albedo_;
+    if (heat_.none()) return out;
+    const auto lambert = static_cast<float>(2.0 / 3 * lambert_phase(phase_rad));
+    for (int b = 0; b < bins_; ++b)
+        if (heat_.is_thermal(b)) out[b] = lambert * heat_.reflected()[b];
+    return out;
 }
 
 double BodyLook::disk_brightness(double phase_rad) const {

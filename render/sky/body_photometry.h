@@ -17,6 +17,8 @@
 // linearly to 0.65 um and constant beyond. Bands of methane, which make Uranus and Neptune several times
 // darker beyond 0.7 um, are missing. The Moon's colour is ROLO's at 30 deg of phase (below), relative to V.
 //
+// In thermal bins a body reflects as a Lambert surface what its emissivity leaves (body_heat.h).
+//
 // Alternatively Hapke's law (render/brdf/hapke.h), L = E_s mu_0 f, without a magnitude. The Moon is that of
 // LROC's Wide Angle Camera, Sato et al., J. Geophys. Res. Planets 119, 1775 (2014), with the medians of their
 // maps at 643 nm (archived as WAC_HAPKEPARAMMAP) between 30 S and 30 N: w 0.3854, b 0.2375, h_s 0.0672;
@@ -34,6 +36,7 @@
 
 #include "render/brdf/hapke.h"
 #include "render/sky/bodies.h"
+#include "render/sky/body_heat.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/spectrum.h"
 
@@ -66,6 +69,7 @@ struct BodyConfig {
     double height_step_m = 1, height_zero_m = 0;
     bool planetshine = false;
     bool rings = false;
+    BodyHeatConfig heat;
 };
 // Returns the body's own defaults, and the keys of its section.
 BodyConfig default_body(BodyId id);
@@ -92,16 +96,19 @@ class BodyLook {
     bool plain_lambert() const { return law_ == SurfaceLaw::kLambert && !measured_; }
     bool is_hapke() const { return law_ == SurfaceLaw::kHapke; }
     const Spectrum& albedo() const { return albedo_; }
+    const BodyHeat& heat() const { return heat_; }
     // Returns an upper bound of what an element sends per unit of irradiance [sr^-1].
     Spectrum max_sr() const;
 
   private:
     float coefficient(double phase_rad) const;
+    Spectrum solar_reflectance_sr(float mu0, float mu, float cos_phase) const;
     void integrate_disk();
 
     SurfaceLaw law_ = SurfaceLaw::kLambert;
     bool measured_ = false;
     Spectrum albedo_;
+    BodyHeat heat_;
     std::array<float, 182> by_degree_{};  // c at 0, 1, ... 180 degrees
     HapkeParameters hapke_;
     int bins_ = 0;

@@ -27,6 +27,15 @@ constexpr double kZeroMagnitude_w_m2_um = 3.631e-8;
 // 0 at V, 1 at B and below. A tilt of a magnitude reddens B-V by kTiltInBv and dims V by kTiltInV: for
 // Bessell's passbands, within 0.02 for the library's spectra.
 constexpr double kTiltInBv = 0.735, kTiltInV = 0.054;
+
+// Returns the mean over a bin beyond the library's end, over the value at the end: Rayleigh and Jeans' law,
+// the fourth power of the wavelength. Cool stars are up to a fifth fainter there, dusty ones brighter.
+float infrared_tail(double from_um, double to_um) {
+    const double end_um = kWavelengths_um.back();
+    const auto third = [&](double um) { return std::pow(end_um / um, 3); };
+    return static_cast<float>(end_um / 3 * (third(from_um) - third(to_um)) / (to_um - from_um));
+}
+
 double blue_tilt(double wavelength_um) { return std::clamp((0.53 - wavelength_um) / 0.09, 0.0, 1.0); }
 
 }  // namespace
@@ -45,6 +54,8 @@ StarSpectra::StarSpectra(const SpectralGrid& grid) : grid_(grid) {
     for (const LibraryStar& star : kLibrary) {
         Spectrum logs = grid.average(
             {{kWavelengths_um.begin(), kWavelengths_um.end()}, {star.flux.begin(), star.flux.end()}, {}});
+        for (int b = grid.solar_bins(); b < grid.size(); ++b)
+            logs[b] = static_cast<float>(star.flux.back()) * infrared_tail(grid.from_um(b), grid.to_um(b));
         for (int b = 0; b < grid.size(); ++b) logs[b] = std::log(logs[b]);
         logs_.push_back(logs);
     }

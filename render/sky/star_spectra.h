@@ -14,7 +14,7 @@
 //
 // A spectrum by these colours is right within 0.02 mag in B, V and Ic; in narrow bands within 0.1 mag for
 // stars to K5 and 0.3 for M stars, whose molecular bands do not follow from colour alone. Not modelled:
-// effects of a star's own metallicity, emission lines or variability; lines finer than 10 nm.
+// dust; effects of a star's own metallicity, emission lines or variability; lines finer than 10 nm.
 
 #include <optional>
 #include <vector>

@@ -32,6 +32,37 @@ constexpr auto kSun_w_m2_um = std::to_array<double>({
     75.3,   72.9,   70.6,   68.8,   66.0,   64.0,   62.3,   60.1,   58.6,   57.0,   54.9,   53.6,   51.2,
 });
 
+// ASTM E490-00a: wavelength [um], irradiance at 1 au [W m^-2 um^-1]; powers of the wavelength between them.
+struct SunAt {
+    double wavelength_um, w_m2_um;
+};
+constexpr auto kInfraredSun = std::to_array<SunAt>({
+    {2.5, 51.55},  {2.6, 44.57},  {2.7, 38.67},  {2.8, 33.85},  {2.9, 29.69},  {3.0, 26.12},  {3.1, 23.06},
+    {3.2, 20.48},  {3.3, 18.02},  {3.4, 16.15},  {3.5, 14.56},  {3.6, 13.07},  {3.7, 11.62},  {3.8, 10.57},
+    {3.9, 9.599},  {4.0, 8.669},  {4.5, 5.393},  {5.0, 3.504},  {5.5, 2.439},  {6.0, 1.742},  {6.5, 1.278},
+    {7.0, 0.9592}, {7.5, 0.7344}, {8.0, 0.5721}, {8.5, 0.4525}, {9.0, 0.3627}, {9.5, 0.2942}, {10, 0.2412},
+    {11, 0.1635},  {12, 0.1152},  {13, 0.0834},  {14, 0.0619},  {15, 0.0469},  {16, 0.0361},  {17, 0.0283},
+    {18, 0.0225},  {19, 0.0181},  {20, 0.0147},
+});
+
+// Returns the integral of the infrared spectrum between two wavelengths within one step of the table [W m^-2].
+double infrared_step_w_m2(const SunAt& low, const SunAt& high, double from_um, double to_um) {
+    const double power =
+        std::log(high.w_m2_um / low.w_m2_um) / std::log(high.wavelength_um / low.wavelength_um);
+    const auto below = [&](double um) { return std::pow(um / low.wavelength_um, power + 1); };
+    return low.w_m2_um * low.wavelength_um / (power + 1) * (below(to_um) - below(from_um));
+}
+
+double infrared_w_m2(double from_um, double to_um) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < kInfraredSun.size(); ++i) {
+        const double from = std::max(from_um, kInfraredSun[i].wavelength_um),
+                     to = std::min(to_um, kInfraredSun[i + 1].wavelength_um);
+        if (from < to) sum += infrared_step_w_m2(kInfraredSun[i], kInfraredSun[i + 1], from, to);
+    }
+    return sum;
+}
+
 // Neckel & Labs 1994: wavelength [nm], A0 ... A5.
 constexpr double kLimbLaw[30][7] = {
     {303.327, 0.08011, 0.70695, 0.49910, -0.31080, -0.02177, 0.04642},
@@ -92,7 +123,7 @@ Spectrum solar_irradiance_1au_w_m2_um(const SpectralGrid& grid) {
     Spectrum out;
     for (int b = 0; b < grid.size(); ++b) {
         // The overlap of the bin with each bin of the table.
-        double sum = 0;
+        double sum = infrared_w_m2(grid.from_um(b), grid.to_um(b));
         for (std::size_t i = 0; i < kSun_w_m2_um.size(); ++i) {
             const bool fine = i < kFineCount;
             const double step = fine ? kFineStep_um : kCoarseStep_um;

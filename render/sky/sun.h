@@ -11,7 +11,8 @@ namespace hilcam {
 
 // Returns the Sun's mean spectral irradiance at 1 au over each bin [W m^-2 um^-1]: ASTM G173-03's
 // extraterrestrial spectrum (Gueymard, Solar Energy 76, 2004; 1348 W m^-2 to 4 um), stored as means over 5 nm
-// to 1.1 um and 20 nm to 2.5 um. InputError for a grid that begins below 0.28 um.
+// to 1.1 um and 20 nm to 2.5 um; beyond it ASTM E490-00a (Kurucz to 4 um, Smith & Gottlieb beyond), to 1 % at
+// a wavelength. InputError for a grid that begins below 0.28 um.
 Spectrum solar_irradiance_1au_w_m2_um(const SpectralGrid& grid);
 
 struct SunConfig {

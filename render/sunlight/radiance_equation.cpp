@@ -181,7 +181,8 @@ class RadianceEquation final : public RadianceModel {
     void add_light(Tile& tile, std::span<const ShadingPoint> points, BodySampling lamps) const override {
         if (tile.frame.has_emission)
             for (const ShadingPoint& at : points)
-                tile.add(at, LightPart::kEmission, at.throughput * at.surface.material->emission);
+                tile.add(at, LightPart::kEmission,
+                         at.throughput * at.surface.material->emission.towards(dot(at.normal, at.view_dir)));
         add_sunlight(tile, points);
         add_lamps_reflected(tile, points);
         if (lamps == BodySampling::kSampled) add_body_light(tile, points);

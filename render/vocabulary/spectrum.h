@@ -60,10 +60,16 @@ struct Curve {
     double mean(double from_um, double to_um) const;
 };
 
+// Bins beyond this wavelength are thermal: what a surface emits there is as bright as what it reflects, and
+// its reflectance follows from its emissivity. A bin is on one side of it.
+inline constexpr double kThermalFrom_um = 2.5;
+inline constexpr double kShortest_um = 0.2, kLongest_um = 20;
+
 // The bins of a run: [edge_0, edge_1), [edge_1, edge_2), ... in um.
 class SpectralGrid {
   public:
-    // edges_um: 2 to kMaxBins + 1 strictly increasing values within 0.2-2.5 um; InputError otherwise.
+    // edges_um: 2 to kMaxBins + 1 strictly increasing values within kShortest_um to kLongest_um, one of which
+    // is kThermalFrom_um if some are below and others above; InputError otherwise.
     explicit SpectralGrid(std::vector<double> edges_um);
 
     int size() const { return static_cast<int>(edges_um_.size()) - 1; }
@@ -72,6 +78,10 @@ class SpectralGrid {
     double center_um(int bin) const { return 0.5 * (from_um(bin) + to_um(bin)); }
     double width_um(int bin) const { return to_um(bin) - from_um(bin); }
     std::span<const double> edges_um() const { return edges_um_; }
+    bool is_thermal(int bin) const { return from_um(bin) >= kThermalFrom_um; }
+    bool has_thermal() const { return is_thermal(size() - 1); }
+    // Returns the number of bins below kThermalFrom_um, which come first.
+    int solar_bins() const;
     // Returns the averages of a curve over the bins.
     Spectrum average(const Curve& curve) const;
 
@@ -83,6 +93,12 @@ class SpectralGrid {
 // is extrapolated silently. A constant covers all bins. `what` begins the message.
 void require_cover(const Curve& curve, const SpectralGrid& grid, const std::string& what);
 
+// The same for the bins below kThermalFrom_um alone: thermal ones have an emissivity.
+void require_solar_cover(const Curve& curve, const SpectralGrid& grid, const std::string& what);
+
 // Planck's law: spectral radiance of a black body [W m^-2 sr^-1 um^-1] (Planck 1901; CODATA 2018 constants).
 double planck_w_m2_sr_um(double wavelength_um, double temperature_k);
+// Returns its mean over each bin, to 1e-9, by the series of Chang & Rhee (Int. Comm. Heat Mass Transfer 11,
+// 1984). Zero at 0 K.
+Spectrum planck_w_m2_sr_um(const SpectralGrid& grid, double temperature_k);
 }  // namespace hilcam

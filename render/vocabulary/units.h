@@ -13,6 +13,8 @@ inline constexpr double kArcsecond_rad = kPi / 648000.0;
 inline constexpr double kSpeedOfLight_m_s = 299792458.0;
 inline constexpr double kPlanck_j_s = 6.62607015e-34;
 inline constexpr double kBoltzmann_j_k = 1.380649e-23;
+// Stefan-Boltzmann constant, 2 pi^5 k^4 / (15 h^3 c^2): CODATA 2018.
+inline constexpr double kStefanBoltzmann_w_m2_k4 = 5.670374419e-8;
 
 // IAU 2012 Resolution B2, exact.
 inline constexpr double kAstronomicalUnit_m = 149597870700.0;

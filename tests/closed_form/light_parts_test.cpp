@@ -366,7 +366,9 @@ TEST(LightParts, APixelWithoutANumberHasNone) {
     Stage s = stage_by({"direct", "rays"});
     s.models.radiance = "emissive";
     SceneObject object = plate(lambert(0.8), s.grid);
-    object.materials[0].emission.bin = {1, std::numeric_limits<float>::quiet_NaN()};
+    Spectrum glow;
+    glow.bin = {1, std::numeric_limits<float>::quiet_NaN()};
+    object.materials[0].emission = ThermalEmission(glow);
     s.add(std::move(object), {0, 0, 4});
     const LightParts parts = parts_of(s);
     EXPECT_GT(s.stats.not_finite, 0u);

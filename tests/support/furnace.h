@@ -30,6 +30,6 @@ inline double furnace_mean(const std::string& path_model, int depth, double refl
     return s.mean();
 }
 // Of the black body, in the picture's first bin.
-inline double furnace_black() { return planck_w_m2_sr_um(Stage().grid.center_um(0), kFurnace_k); }
+inline double furnace_black() { return static_cast<double>(planck_w_m2_sr_um(Stage().grid, kFurnace_k)[0]); }
 
 }  // namespace hilcam

@@ -46,6 +46,16 @@ TEST(CameraSheet, GeometryOfTheInspectorIsItsTrigonometry) {
     EXPECT_EQ(s.frame_bytes, 2.0 * 1024 * 1024);
 }
 
+// The midpoint rule over 20,000 steps of Planck's law, in another program: 2.3694e6 electrons of a black body of
+// 300 K and 19.22 mK. Eight bins: half a percent.
+TEST(CameraSheet, ACooledCamerasBlackBodyIsPlancks) {
+    const CameraSheet s = camera_sheet(camera("cooled_midwave"));
+    EXPECT_NEAR(s.black_body_e / 2369401, 1, 0.005);
+    EXPECT_NEAR(s.netd_k * 1e3, 19.216, 0.1);
+    EXPECT_GT(to_text(s).find("NETD 19."), 0u);
+    EXPECT_EQ(camera_sheet(camera("inspector_1k")).netd_k, 0);
+}
+
 TEST(CameraSheet, LightOfTheInspectorIsTheIntegralOverItsCurves) {
     const CameraModel c = camera("inspector_1k");
     const CameraSheet s = camera_sheet(c);

@@ -9,6 +9,8 @@
 
 #include "render/brdf/brdf_table.h"
 #include "render/brdf/microfacet.h"
+#include "render/scene/color_bands.h"
+#include "render/scene/material_albedo.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 
@@ -68,6 +70,12 @@ TEST(Brdf, EveryModelIsHeldToTheseTests) {
 }
 
 Bsdf bsdf(const Material& m) { return {&m, m.ggx_alpha, m.base, m.highlight}; }
+// The same with one bin's spectra in all of them.
+Bsdf bsdf_in(const Material& m, int bin) {
+    Bsdf out = bsdf(m);
+    out.base.bin.fill(m.base[bin]), out.highlight.bin.fill(m.highlight[bin]);
+    return out;
+}
 
 Vec3f direction(double cosine, double azimuth) {
     const double s = std::sqrt(1 - cosine * cosine);
@@ -304,7 +312,75 @@ TEST(Material, EmissionIsPlancksTimesOneMinusReflectance) {
     hot.temperature_k = 1500;
     const Material m = make_material(hot, SpectralGrid({0.899, 0.901}));
     // 2 h c^2 / lambda^5 / (exp(h c / lambda k T) - 1) at 0.9 um, 1500 K: 4744.4 W m^-2 sr^-1 um^-1.
-    EXPECT_NEAR(m.emission[0] / (0.75 * 4744.4), 1, 2e-3);
+    EXPECT_NEAR(m.emission.mean()[0] / (0.75 * 4744.4), 1, 2e-3);
+}
+
+const SpectralGrid kThermalGrid({1, 2.5, 8, 10, 12, 14});
+
+std::vector<NamedMaterial> materials_with_emissivity(double emissivity) {
+    std::vector<NamedMaterial> all = white_materials();
+    for (NamedMaterial& named : all) {
+        named.config.infrared_emissivity = Curve::constant(emissivity);
+        named.config.has_infrared_emissivity = true;
+    }
+    return all;
+}
+
+// Whatever a model's reflectance means, its emissivity is the one that is given, down to what it can reflect at
+// most: 0.8 of all light with rough regolith.
+TEST(Material, EveryModelHasTheEmissivityThatIsGiven) {
+    for (const double emissivity : {0.2, 0.5, 0.85})
+        for (const NamedMaterial& named : materials_with_emissivity(emissivity)) {
+            const Material m = make_material(named.config, kThermalGrid);
+            const MaterialAlbedo albedo(m);
+            for (int b = 1; b < kThermalGrid.size(); ++b)
+                EXPECT_NEAR(albedo.white_base()[b] + albedo.white_lobe()[b], 1 - emissivity, 2e-3)
+                    << named.name << " " << emissivity;
+        }
+}
+
+// Kirchhoff: what a surface emits and what it reflects of surroundings at its own temperature add up to a black
+// body, in each direction.
+TEST(Material, EmissionAndReflectionMakeABlackBody) {
+    const Spectrum black = planck_w_m2_sr_um(kThermalGrid, 300);
+    for (NamedMaterial& named : materials_with_emissivity(0.6)) {
+        named.config.temperature_k = 300;
+        const Material m = make_material(named.config, kThermalGrid);
+        for (const float cosine : {0.15f, 0.5f, 0.9f}) {
+            const double reflected = albedo_by_directions(bsdf_in(m, 2), direction(cosine, 0.3));
+            EXPECT_NEAR((m.emission.towards(cosine)[2] / black[2]) + reflected, 1, 0.012)
+                << named.name << " at " << cosine;
+        }
+    }
+}
+
+TEST(Material, ThermalBinsNeedAnEmissivity) {
+    MaterialConfig grey = model(kModel<brdf::Lambert>, 0.3);
+    EXPECT_THROW(make_material(grey, kThermalGrid), InputError);
+    // A curve that reaches as far says it.
+    grey.reflectance = {{0.9, 2.5, 14}, {0.3, 0.3, 0.1}, {}};
+    EXPECT_NEAR(make_material(grey, kThermalGrid).base[4], 0.1174, 1e-3);
+    // Else the solar bins alone need it.
+    grey.reflectance = {{0.9, 2.6}, {0.3, 0.3}, {}};
+    EXPECT_THROW(make_material(grey, kThermalGrid), InputError);
+    grey.infrared_emissivity = {{8, 14}, {0.9, 0.8}, {}}, grey.has_infrared_emissivity = true;
+    const Material m = make_material(grey, kThermalGrid);
+    EXPECT_NEAR(m.base[0], 0.3, 1e-6);
+    EXPECT_NEAR(m.base[2], 1 - 0.8833, 1e-3);
+}
+
+// Colours of a picture say nothing of the thermal infrared.
+TEST(Material, TexturesEndWhereThermalBinsBegin) {
+    const ColorBands bands(kThermalGrid);
+    const Spectrum color = bands.spectrum({0.2f, 0.3f, 0.4f});
+    EXPECT_NEAR(color[0], 0.2, 1e-6);
+    for (int b = 1; b < kThermalGrid.size(); ++b) EXPECT_EQ(color[b], 1);
+    MeshSurface painted;
+    painted.base_color = {0.1f, 0.2f, 0.3f};
+    painted.roughness = 0.5f;
+    EXPECT_NEAR(MaterialAlbedo(make_material(painted, kThermalGrid)).white_base()[2] +
+                    MaterialAlbedo(make_material(painted, kThermalGrid)).white_lobe()[2],
+                1 - kUnknownEmissivity, 2e-3);
 }
 
 // A place's parameters of Hapke's law stand for the material's: the same values as of a material that has them.

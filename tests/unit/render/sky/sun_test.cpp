@@ -19,6 +19,19 @@ TEST(Sun, SpectrumIsThatOfTheTable) {
     EXPECT_THROW(solar_irradiance_1au_w_m2_um(SpectralGrid({0.25, 0.3})), InputError);
 }
 
+// ASTM E490-00a between the wavelengths that are stored [um, W m^-2 um^-1]; and 39.555 W m^-2 from 2.5 to 5 um, by
+// the trapezoidal rule on its own steps.
+TEST(Sun, InTheInfraredItIsThatOfE490) {
+    constexpr double kTable[][2] = {{2.56, 46.72}, {3.04, 24.65}, {3.74, 11.08},  {4.20, 7.153},
+                                    {4.70, 4.514}, {5.75, 2.054}, {8.75, 0.4044}, {9.75, 0.2661}};
+    for (const auto& [um, irradiance] : kTable)
+        EXPECT_NEAR(solar_irradiance_1au_w_m2_um(SpectralGrid({um - 0.001, um + 0.001}))[0] / irradiance, 1,
+                    0.012)
+            << um;
+    const SpectralGrid whole({1.5, 2.5, 5});
+    EXPECT_NEAR(2.5 * static_cast<double>(solar_irradiance_1au_w_m2_um(whole)[1]), 39.555, 0.1);
+}
+
 // The mean over the disk is 1 by definition; at 0.541 um the limb (mu = 0.2) has 0.4738 of the middle's
 // radiance: Neckel & Labs 1994, 0.26073 + 1.27428 mu - 1.30352 mu^2 + ....
 TEST(Sun, LimbDarkeningKeepsTheMeanAndFollowsTheTable) {

@@ -1,0 +1,59 @@
+#include "render/sky/body_heat.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+const SpectralGrid kGrid({1, 2.5, 3, 5, 8, 14});
+
+// An even globe shows pi B (R/d)^2 at every phase.
+TEST(BodyHeat, AnEvenGlobeHasNoPhases) {
+    const BodyHeat heat({254, 254, 0.9}, kGrid);
+    const Spectrum black = planck_w_m2_sr_um(kGrid, 254);
+    for (const double phase_deg : {0.0, 60.0, 179.0})
+        for (int b = 1; b < kGrid.size(); ++b)
+            EXPECT_NEAR(heat.disk_w_m2_um(phase_deg * kDegree_rad)[b] / (kPi * 0.9 * black[b]), 1, 2e-3);
+    EXPECT_EQ(heat.radiance(1)[0], 0);  // not thermal
+}
+
+// The Moon at noon, at 60 degrees from it and at night: the fourth root of the cosine.
+TEST(BodyHeat, TheMoonIsInEquilibriumWithItsSun) {
+    const BodyHeatConfig moon = default_heat(BodyId::kMoon);
+    const BodyHeat heat(moon, kGrid);
+    const double middle = std::pow(0.5 * (std::pow(385.0, 4) + std::pow(95.0, 4)), 0.25);
+    for (const auto& [mu0, kelvin] : {std::pair{1.0f, 385.0}, {0.5f, middle}, {0.0f, 95.0}, {-0.3f, 95.0}}) {
+        const Spectrum black = planck_w_m2_sr_um(kGrid, kelvin);
+        EXPECT_NEAR(heat.radiance(mu0)[4] / (0.95f * black[4]), 1, 2e-3) << kelvin;
+    }
+}
+
+// By squares of the disk, where the table goes by chords.
+TEST(BodyHeat, TheDiskIsTheSumOfItsElements) {
+    const BodyHeat heat(default_heat(BodyId::kMoon), kGrid);
+    for (const double phase_deg : {0.0, 45.0, 90.0, 150.0}) {
+        const double g = phase_deg * kDegree_rad;
+        constexpr int kAcross = 600;
+        Spectrum sum;
+        for (int j = 0; j < kAcross; ++j)
+            for (int i = 0; i < kAcross; ++i) {
+                const double x = (2 * i + 1.0) / kAcross - 1, y = (2 * j + 1.0) / kAcross - 1;
+                if (x * x + y * y >= 1) continue;
+                const double mu0 = x * std::sin(g) + std::sqrt(1 - x * x - y * y) * std::cos(g);
+                sum += 4.0f / (kAcross * kAcross) * heat.radiance(static_cast<float>(mu0));
+            }
+        for (int b = 2; b < kGrid.size(); ++b)
+            EXPECT_NEAR(sum[b] / heat.disk_w_m2_um(g)[b], 1, 8e-3) << phase_deg;
+    }
+}
+
+TEST(BodyHeat, WithoutThermalBinsThereIsNone) {
+    EXPECT_TRUE(BodyHeat(default_heat(BodyId::kMoon), SpectralGrid({0.4, 2.5})).none());
+}
+
+}  // namespace
+}  // namespace hilcam
