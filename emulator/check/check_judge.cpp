@@ -126,10 +126,11 @@ void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraRepor
     if (!std::isfinite(o.phase_rad)) return;  // nothing is expected of what the camera is within
     const std::string name = "object '" + harmless(o.loaded.name) + "'";
     const auto warn = [&](const std::string& text) { out.push_back(s.places.at(key, name + " " + text)); };
-    if (o.sunlit < kDark)
+    const bool needs_sun = !SpectralGrid(s.spectrum_edges_um).has_thermal();
+    if (needs_sun && o.sunlit < kDark)
         warn(fmt::format("is in eclipse: {:.2g} % of the Sun is visible from it, and no lamp is lit",
                          100 * o.sunlit));
-    else if (lit_share(o.phase_rad) < kDark)
+    else if (needs_sun && lit_share(o.phase_rad) < kDark)
         warn(fmt::format("shows its night side: phase angle {:.1f} deg", degrees(o.phase_rad)));
     else if (o.expected.snr < 1)
         warn(fmt::format("is lost in the noise: about {:.3g} e- of light, {:.3g} e- of noise",
