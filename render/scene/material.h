@@ -50,8 +50,8 @@ struct Material {
     bool is_bare() const { return has_facets() && !traits().has_body; }
 };
 
-// Throws InputError if a curve does not cover the grid, or the thermal bins have no emissivity. `table` is for
-// models that use one.
+// Throws InputError if a curve does not cover the grid, or the thermal bins have no emissivity. `table` is
+// for models that use one.
 Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
                        std::shared_ptr<const BrdfTable> table = nullptr);
 // Makes the material of a surface that no config names, from the mesh's own colours. Linear sRGB values
