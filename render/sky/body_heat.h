@@ -22,8 +22,8 @@ struct BodyHeatConfig {
     double emissivity = 0.95;
 };
 // The Moon: Hayne et al., J. Geophys. Res. Planets 122, 2371 (2017). Mercury: Vasavada et al., Icarus 141,
-// 179 (1999), equator at 0.39 au. Mars: range of the equator (Kieffer et al., 1977). Others are even, at their
-// effective temperature: Venus and Earth (NASA's planetary fact sheets, black-body temperature), giants
+// 179 (1999), equator at 0.39 au. Mars: range of the equator (Kieffer et al., 1977). Others are even, at
+// their effective temperature: Venus and Earth (NASA's planetary fact sheets, black-body temperature), giants
 // (Pearl & Conrath, J. Geophys. Res. 96, 18921, 1991).
 BodyHeatConfig default_heat(BodyId id);
 Fields fields(BodyHeatConfig& config);
