@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Makes what describes hilcam's packets to others from io/commands/packets.json:
+"""Makes what describes hilcam's packets to others from io/commands/packets.json and io/packets/image_packet.json:
 
-    tools/make_packet_files.py            writes the tables of docs/protocol.md and the files of tools/ground_systems
+    tools/make_packet_files.py            writes the tables of docs/protocol.md and docs/packets.md and the files of tools/ground_systems
     tools/make_packet_files.py --check    writes nothing; says which of them are not as they would be made, status 1
 
 Needs Python's standard library alone.
@@ -17,7 +17,9 @@ from packet_files.description import SOURCE, Description
 def made(description):
     """The text of each file, by its path in the repository."""
     document = pathlib.Path("docs/protocol.md")
-    files = {document: tables.with_tables((SOURCE / document).read_text(), description)}
+    files = {document: tables.with_tables((SOURCE / document).read_text(), tables.tables(description))}
+    images = pathlib.Path("docs/packets.md")
+    files[images] = tables.with_tables((SOURCE / images).read_text(), tables.image_tables(description), str(images))
     files[pathlib.Path("tools/ground_systems/yamcs/hilcam.xml")] = xtce.document(description)
     targets = pathlib.Path("tools/ground_systems/openc3-cosmos-hilcam/targets/HILCAM/cmd_tlm")
     files[targets / "cmd.txt"] = cosmos.commands(description)

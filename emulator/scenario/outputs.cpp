@@ -43,8 +43,10 @@ bool have_fixed_size(const OutputsConfig& outputs) {
 }
 
 bool have_live(const OutputsConfig& outputs) {
-    return outputs.any([]<class Config>(const Config&) {
-        if constexpr (requires { Config::kLive; })
+    return outputs.any([]<class Config>(const Config& config) {
+        if constexpr (requires { is_live(config); })
+            return is_live(config);
+        else if constexpr (requires { Config::kLive; })
             return Config::kLive;
         else
             return false;

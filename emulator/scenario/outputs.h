@@ -4,9 +4,10 @@
 //
 // An output is a FrameSink (io/contract/frame_sink.h) and its configuration, which provides everything that
 // is needed here: kKey and kMeaning; fields(), and validate() if keys depend on each other; make_sink(config,
-// context, shape). Where they apply, also: kFixedSize, when frames cannot change size during a run; kLive,
-// when it hands frames to clients as they are made, which must not wait for a disk; listening(config), the
-// ports it listens on; run_folder(config), a folder that it fills. docs/extending.md shows how to add one.
+// context, shape). Where they apply, also: kFixedSize, when frames cannot change size during a run; kLive
+// or is_live(config), when it hands frames to clients as they are made, which must not wait for a disk;
+// listening(config), the ports it listens on; run_folder(config), a folder that it fills. docs/extending.md
+// shows how to add one.
 
 #include <tuple>
 
@@ -14,6 +15,7 @@
 #include "io/contract/run_folder.h"
 #include "io/files/sink_files.h"
 #include "io/gige/sink_gige.h"
+#include "io/packets/sink_packets.h"
 #include "io/preview/sink_preview.h"
 #include "io/shm/sink_shm.h"
 #include "io/truth/truth_config.h"
@@ -78,8 +80,8 @@ class OutputList {
     std::tuple<Given<Configs>...> all_;
 };
 
-using OutputsConfig =
-    OutputList<GigeConfig, V4l2Config, UvcConfig, FilesConfig, PreviewConfig, TruthConfig, ShmConfig>;
+using OutputsConfig = OutputList<GigeConfig, V4l2Config, UvcConfig, FilesConfig, PreviewConfig, TruthConfig,
+                                 ShmConfig, PacketsConfig>;
 Fields fields(OutputsConfig& outputs);
 
 // Returns the ports that the outputs listen on, in the order of the list; key: "outputs.gige.interface".

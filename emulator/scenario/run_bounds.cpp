@@ -78,7 +78,8 @@ void require_timed_output(const RunBounds& bounds, bool has_timed_output) {
     const auto [key, value] = first_timed(bounds, false);
     if (!key.empty() && !has_timed_output)
         throw refused(key, plain(value),
-                      "none without outputs.gige, v4l2, uvc or shm, which alone say when a frame has left");
+                      "none without outputs.gige, v4l2, uvc, shm or packets to a socket, which alone say "
+                      "when a frame has left");
 }
 
 }  // namespace hilcam

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 
 namespace hilcam {
 
@@ -14,6 +15,9 @@ class FrameFates {
   public:
     enum class Fate : std::uint8_t { kNoFile, kPending, kWritten, kLost };
 
+    // Returns this record for the one output that it is about, which is the first that asks; null for the
+    // others. Owner thread.
+    FrameFates* claim() { return std::exchange(claimed_, true) ? nullptr : this; }
     // Sets the function that settle() calls. Owner thread, before frames come.
     void listen(std::function<void()> on_settled) { on_settled_ = std::move(on_settled); }
     // Says that a file of this frame will be written. Loop, one thread, frames in order.
@@ -55,6 +59,7 @@ class FrameFates {
     std::array<Entry, 1024> entries_;
     std::atomic<std::size_t> head_{0};
     std::function<void()> on_settled_;
+    bool claimed_ = false;
 };
 
 }  // namespace hilcam

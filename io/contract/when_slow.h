@@ -16,7 +16,8 @@ inline Field when_slow(WhenSlow& value) {
     return choice("when_slow", value, {"auto", "wait", "drop"},
                   "treatment of frames that come faster than they are written. wait: the camera waits, and "
                   "misses exposures; drop: frames are dropped and reported, without a fault; auto: drop "
-                  "beside gige, v4l2, uvc or shm, whose clients must not wait for a disk, else wait; a frame "
+                  "beside gige, v4l2, uvc, shm and packets to sockets, whose clients must not wait for a "
+                  "disk, else wait; a frame "
                   "lost with auto is a fault (exit status 1)");
 }
 

@@ -138,7 +138,8 @@ SinkReport FilesSink::report() const {
 std::unique_ptr<FrameSink> make_sink(const FilesConfig& config, const SinkContext& context,
                                      const OutputShape& shape) {
     return std::make_unique<FilesSink>(config, shape.width, shape.height, *shape.run,
-                                       waits(config.when_slow, shape.has_live_output), context.fates);
+                                       waits(config.when_slow, shape.has_live_output),
+                                       context.fates ? context.fates->claim() : nullptr);
 }
 
 }  // namespace hilcam

@@ -10,7 +10,7 @@ import re
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-PAGES = tuple(f"docs/{page}.md" for page in ("protocol", "genicam", "ptp", "shared_memory", "recording", "truth"))
+PAGES = tuple(f"docs/{page}.md" for page in ("protocol", "genicam", "ptp", "packets", "shared_memory", "recording", "truth"))
 ITEM = re.compile(r"^- \*\*([A-Z]+-\d+)\*\*((?:.|\n(?=  \S))*)", re.MULTILINE)
 TEST = re.compile(r"^ (\S.*\S)\s+`([\w./]+)`\s+`(\w+)\.(\w+)`$", re.DOTALL)
 

@@ -188,6 +188,17 @@ TEST_F(Allocation, NorWhileFramesGoToASharedMemory) {
               0);
 }
 
+TEST_F(Allocation, NorWhileFramesGoOutAsPackets) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("hilcam_packets_" + std::to_string(getpid()));
+    EXPECT_EQ(allocations({"outputs.packets={transport: file, payload: packed, overwrite: true, folder: " +
+                           folder.string() + "}"},
+                          Loop::kTold),
+              0);
+    EXPECT_GT(std::filesystem::file_size(folder / "packets.bin"), 0u);
+    std::filesystem::remove_all(folder);
+}
+
 TEST_F(Allocation, NorWithAScanningLine) {
     EXPECT_EQ(
         allocations({"camera.shutter={kind: line_scan, line_time_us: 50}",

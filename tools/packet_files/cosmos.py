@@ -5,7 +5,7 @@ the target.
 """
 from packet_files.description import CRC_BYTES, PRIMARY_BYTES
 
-REMARK = "# Made by tools/make_packet_files.py from io/commands/packets.json.\n"
+REMARK = "# Made by tools/make_packet_files.py from io/commands/packets.json and io/packets/image_packet.json.\n"
 KINDS = {"u": "UINT", "i": "INT", "f": "FLOAT"}
 UNITS = {"ns": "Nanoseconds", "s": "Seconds", "m": "Metres", "m/s": "Metres_per_second", "rad": "Radians",
          "rad/s": "Radians_per_second", "dB": "Decibels", "Hz": "Hertz", "bytes": "Bytes", "degrees Celsius": "Degrees_Celsius"}
@@ -106,6 +106,18 @@ def packet(answer, name, meaning, fields):
     return "\n".join([*lines, *fields, item("CRC", 8 * CRC_BYTES, "UINT", "CRC-16/CCITT-FALSE over all bytes before it")]) + "\n"
 
 
+def image_packet(image):
+    """A segment of a frame. Data of -16 bits reach to 16 bits before the packet's end."""
+    crc_bits = 8 * CRC_BYTES
+    return "\n".join([
+        f"TELEMETRY <%= target_name %> {label(image.name)} BIG_ENDIAN {quoted(image.meaning)}",
+        identifying("CCSDS_ID", 16, f"0x{0x0800 | image.number:04X}", f"Packet identification: telemetry, APID 0x{image.number:03X}"),
+        item("CCSDS_SEQUENCE", 16, "UINT", "Sequence control: flags of the frame + a 14-bit count"),
+        item("CCSDS_LENGTH", 16, "UINT", "Bytes behind it, minus 1"), *items(image.fields),
+        item("DATA", -crc_bits, "BLOCK", "A part of the strip's payload"),
+        f"  ITEM CRC {-crc_bits} {crc_bits} UINT {quoted('CRC-16/CCITT-FALSE over all bytes before it')}"]) + "\n"
+
+
 def telemetry(description):
     blocks = [REMARK]
     for answer in description.answers:
@@ -113,4 +125,5 @@ def telemetry(description):
             blocks.append(packet(answer, answer.then_name, answer.then_meaning,
                                  [*items(answer.fields, answer.condition), *items(answer.then)]))
         blocks.append(packet(answer, answer.name, answer.meaning, items(answer.fields)))
+    blocks.append(image_packet(description.image))
     return "\n".join(blocks)

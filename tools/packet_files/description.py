@@ -1,4 +1,4 @@
-"""io/commands/packets.json, with the place of each field's bytes."""
+"""io/commands/packets.json and io/packets/image_packet.json, with the place of each field's bytes."""
 import dataclasses
 import json
 import pathlib
@@ -70,6 +70,9 @@ class Description:
         self.commands = [self._packet(raw, raw["function"], payload_at) for raw in self.raw["commands"]]
         self.answers = [self._packet(raw, raw["apid"], PRIMARY_BYTES + (1 if raw.get("kind") is None else 2))
                         for raw in self.raw["answers"]]
+
+        image = json.loads((SOURCE / "io/packets/image_packet.json").read_text())
+        self.image = self._packet(image, image["apid"], PRIMARY_BYTES)
 
     def command_bytes(self, command):
         payload = sum(field.bytes for field in command.fields)

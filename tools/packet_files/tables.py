@@ -1,4 +1,4 @@
-"""The byte tables of docs/protocol.md: each stands between two marks that name it."""
+"""The byte tables of docs/protocol.md and docs/packets.md: each stands between two marks that name it."""
 import re
 
 
@@ -84,17 +84,27 @@ def tables(description):
     return made
 
 
-def with_tables(text, description):
-    """The document with its tables made anew. Raises ValueError where marks and tables do not go together."""
-    made = tables(description)
+def image_tables(description):
+    """The table of image packets, as tables()."""
+    image = description.image
+    behind = image.fields[-1].at + image.fields[-1].bytes
+    return {image.name: HEAD + [
+        f"| 0-1 | packet identification | `0x0800` + APID (0x{image.number:03X}): telemetry with a secondary header |",
+        "| 2-3 | sequence control | first `0x4000`, middle 0, last `0x8000`, only one `0xC000`; + 14-bit count |",
+        LENGTH, *rows(image.fields), f"| {behind}- | data | a part of the strip's payload |",
+        "| last 2 | CRC | with `crc: true`: over all bytes before it, as of [commands](protocol.md) |"]}
+
+
+def with_tables(text, made, document="docs/protocol.md"):
+    """The document with its tables made anew. made: as of tables(). Raises ValueError where marks and tables do not go together."""
     marked = re.findall(r"^<!-- packets: (\w+) -->$", text, re.M)
     if sorted(marked) != sorted(made):
-        raise ValueError(f"docs/protocol.md marks tables {sorted(marked)}; the description has {sorted(made)}")
+        raise ValueError(f"{document} marks tables {sorted(marked)}; the description has {sorted(made)}")
     for name, lines in made.items():
         begin, end = f"<!-- packets: {name} -->\n", f"\n<!-- end of {name} -->\n"
         before, _, rest = text.partition(begin)
         _, found, after = rest.partition(end)
         if not found:
-            raise ValueError(f"docs/protocol.md has no '{end.strip()}' behind '{begin.strip()}'")
+            raise ValueError(f"{document} has no '{end.strip()}' behind '{begin.strip()}'")
         text = before + begin + "\n".join(lines) + end + after
     return text

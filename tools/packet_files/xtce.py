@@ -5,10 +5,10 @@ Commands end where their CRC begins, which the ground system appends; their leng
 import struct
 import xml.etree.ElementTree as ET
 
-from packet_files.description import PRIMARY_BYTES, VERSION
+from packet_files.description import CRC_BYTES, PRIMARY_BYTES, VERSION
 
 NAMESPACE = "http://www.omg.org/spec/XTCE/20180204"
-REMARK = " Made by tools/make_packet_files.py from io/commands/packets.json. "
+REMARK = " Made by tools/make_packet_files.py from io/commands/packets.json and io/packets/image_packet.json. "
 # Name and bits of the parts of a Space Packet's primary header (CCSDS 133.0-B-2, 4.1.3).
 PRIMARY = (("version", 3), ("type", 1), ("secondary_header", 1), ("apid", 11), ("sequence_flags", 2), ("count", 14), ("length", 16))
 MOST_REASON_BYTES = 96
@@ -43,6 +43,16 @@ class Types:
         dynamic = ET.SubElement(size, "DynamicValue")
         ET.SubElement(dynamic, "ParameterInstanceRef", parameterRef=length_reference, useCalibratedValue="false")
         ET.SubElement(dynamic, "LinearAdjustment", slope="8")
+        return name
+
+    def binary(self, name, length_reference, intercept_bits):
+        """Bytes whose number of bits is 8 times a parameter, and so many more."""
+        element = ET.SubElement(self.set, f"Binary{self.kind}Type", name=name)
+        ET.SubElement(element, "UnitSet")
+        size = ET.SubElement(ET.SubElement(element, "BinaryDataEncoding"), "SizeInBits")
+        dynamic = ET.SubElement(size, "DynamicValue")
+        ET.SubElement(dynamic, "ParameterInstanceRef", parameterRef=length_reference, useCalibratedValue="false")
+        ET.SubElement(dynamic, "LinearAdjustment", slope="8", intercept=str(intercept_bits))
         return name
 
     def _begin(self, name, form, unit, **attributes):
@@ -114,10 +124,11 @@ class Telemetry:
         self.entry(entries, "crc", self.types.unsigned(16), "CRC-16/CCITT-FALSE over all bytes before it")
 
     def packets(self, description):
-        entries, _ = self.container("space_packet", "The primary header (CCSDS 133.0-B-2) and hilcam's protocol version.",
-                                    abstract=True)
+        entries, _ = self.container("ccsds_packet", "The primary header (CCSDS 133.0-B-2).", abstract=True)
         for name, bits in PRIMARY:
             self.entry(entries, name, self.types.unsigned(bits))
+        entries, criteria = self.container("space_packet", "Hilcam's protocol version.", "ccsds_packet", abstract=True)
+        compared(criteria, {"apid": description.image.number}, "!=")
         self.entry(entries, "protocol_version", self.types.unsigned(8))
         for answer in description.answers:
             branches = bool(answer.then)
@@ -131,21 +142,37 @@ class Telemetry:
                 continue
             condition = {f"{answer.name}_{name}": value for name, value in answer.condition.items()}
             entries, criteria = self.container(answer.name, answer.meaning, answer.name + "_head")
-            compared(criteria, condition, otherwise=True)
+            any_differs(criteria, condition)
             self.crc(entries)
             entries, criteria = self.container(answer.then_name, answer.then_meaning, answer.name + "_head")
             compared(criteria, condition)
             self.fields(entries, answer.then_name, answer.then)
             self.crc(entries)
+        self.image(description.image)
 
 
-def compared(criteria, values, otherwise=False):
-    """All of them equal; otherwise: at least one of them differs."""
-    if not otherwise:
-        parent = ET.SubElement(criteria, "ComparisonList")
-        for name, value in values.items():
-            ET.SubElement(parent, "Comparison", parameterRef=name, value=str(value), useCalibratedValue="false")
-        return
+    def image(self, image):
+        """A segment of a frame: its data end where its CRC begins."""
+        entries, criteria = self.container(image.name, image.meaning, "ccsds_packet")
+        compared(criteria, {"apid": image.number, "type": 0})
+        self.fields(entries, image.name, image.fields)
+        after_header = image.fields[-1].at + image.fields[-1].bytes - PRIMARY_BYTES
+        self.entry(entries, f"{image.name}_data",
+                   self.types.binary(f"{image.name}_data_bytes", "length", 8 * (1 - after_header - CRC_BYTES)),
+                   "A part of the strip's payload")
+        self.crc(entries)
+
+
+def compared(criteria, values, operator="=="):
+    """All of them compare so."""
+    parent = ET.SubElement(criteria, "ComparisonList")
+    said = {} if operator == "==" else {"comparisonOperator": operator}
+    for name, value in values.items():
+        ET.SubElement(parent, "Comparison", parameterRef=name, value=str(value), useCalibratedValue="false", **said)
+
+
+def any_differs(criteria, values):
+    """At least one of them differs."""
     parent = ET.SubElement(ET.SubElement(criteria, "BooleanExpression"), "ORedConditions")
     for name, value in values.items():
         condition = ET.SubElement(parent, "Condition")

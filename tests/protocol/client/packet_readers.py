@@ -31,25 +31,32 @@ class Xtce:
         self.parameters = {e.get("name"): e.get("parameterTypeRef") for e in root.iter(NAMESPACE + "Parameter")}
 
     def _encoding(self, element):
-        """(kind, bits) of a type; a text's bits are the name of the parameter that counts its bytes."""
+        """(kind, bits) of a type; a text's and binary bits are the parameter that counts bytes, and bits more."""
         for form in ("Integer", "Float"):
             encoding = element.find(f"{NAMESPACE}{form}DataEncoding")
             if encoding is not None:
                 return self.ENCODINGS[encoding.get("encoding")], int(encoding.get("sizeInBits"))
         dynamic = element.find(f".//{NAMESPACE}DynamicValue")
-        assert dynamic.find(NAMESPACE + "LinearAdjustment").attrib == {"slope": "8"}
-        return "text", dynamic.find(NAMESPACE + "ParameterInstanceRef").get("parameterRef")
+        adjustment = dynamic.find(NAMESPACE + "LinearAdjustment").attrib
+        assert adjustment["slope"] == "8", adjustment
+        kind = "text" if element.find(NAMESPACE + "StringDataEncoding") is not None else "binary"
+        return kind, (dynamic.find(NAMESPACE + "ParameterInstanceRef").get("parameterRef"), int(adjustment.get("intercept", "0")))
 
     def answer(self, packet):
         """(name of the container, numbers by their parameters' names) of telemetry."""
-        values, name, at = {}, "space_packet", 0
+        values, name, at = {}, "ccsds_packet", 0
         while name is not None:
             for entry in self.containers[name].find(NAMESPACE + "EntryList"):
                 parameter = entry.get("parameterRef")
                 kind, size = self._encoding(self.types["Parameter"][self.parameters[parameter]])
-                count = 8 * values[size] if kind == "text" else size
+                count = 8 * values[size[0]] + size[1] if kind in ("text", "binary") else size
                 raw = bits_of(packet, at, count)
-                values[parameter] = raw.to_bytes(count // 8, "big").decode(errors="replace") if kind == "text" else number(kind, raw, count)
+                if kind in ("text", "binary"):
+                    values[parameter] = raw.to_bytes(count // 8, "big")
+                    if kind == "text":
+                        values[parameter] = values[parameter].decode(errors="replace")
+                else:
+                    values[parameter] = number(kind, raw, count)
                 at += count
             heirs = [heir for heir, element in self.containers.items() if self._follows(element, name, values)]
             assert len(heirs) <= 1, heirs
@@ -63,7 +70,8 @@ class Xtce:
             return False
         compared = base.findall(f"{NAMESPACE}RestrictionCriteria/{NAMESPACE}ComparisonList/{NAMESPACE}Comparison")
         if compared:
-            return all(values[c.get("parameterRef")] == int(c.get("value")) for c in compared)
+            return all((values[c.get("parameterRef")] == int(c.get("value"))) == (c.get("comparisonOperator", "==") == "==")
+                       for c in compared)
         conditions = base.findall(f".//{NAMESPACE}ORedConditions/{NAMESPACE}Condition")
         assert conditions and all(c.find(NAMESPACE + "ComparisonOperator").text == "!=" for c in conditions)
         return any(values[c.find(NAMESPACE + "ParameterInstanceRef").get("parameterRef")] != int(c.find(NAMESPACE + "Value").text)
@@ -107,6 +115,9 @@ class Cosmos:
             elif words[0] in ("APPEND_ITEM", "APPEND_ID_ITEM"):
                 items.append({"name": words[1], "bits": int(words[2]), "kind": words[3], "id": words[0] == "APPEND_ID_ITEM"})
                 items[-1]["default"] = words[4] if items[-1]["id"] else None
+            elif words[0] == "ITEM":  # from the packet's end
+                assert int(words[2]) == -int(words[3]), line
+                items.append({"name": words[1], "bits": int(words[3]), "kind": words[4], "id": False, "default": None})
             elif words[0] == "VARIABLE_BIT_SIZE":
                 items[-1]["length_in"] = words[1]
             else:
@@ -117,8 +128,12 @@ class Cosmos:
         values, at = {}, 0
         for item in self.packets[name]:
             count = 8 * values[item["length_in"]] if "length_in" in item else item["bits"]
+            if count < 0:  # up to so many bits before the end
+                count = 8 * len(packet) + count - at
             raw = bits_of(packet, at, count)
-            if item["kind"] == "STRING":
+            if item["kind"] == "BLOCK":
+                values[item["name"]] = raw.to_bytes(count // 8, "big")
+            elif item["kind"] == "STRING":
                 values[item["name"]] = raw.to_bytes(count // 8, "big").decode(errors="replace")
             else:
                 values[item["name"]] = number(self.KINDS[item["kind"]], raw, count)
