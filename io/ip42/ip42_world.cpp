@@ -103,8 +103,8 @@ Ip42World::Ip42World(Rules rules, Ip42Bench bench, FirstRemarks& remarks)
 
 void Ip42World::lacks(const std::string& what) {
     remarks_.remark(what, "42 sends no " + what +
-                              ", so that its thing stays where it is: the prefixes of "
-                              "Inp_IPC.txt need \"SC\" and \"Orb\"");
+                              ", so its thing stays where it is (prefixes \"SC\" and \"Orb\" in "
+                              "Inp_IPC.txt?)");
 }
 
 std::vector<Command> Ip42World::commands_of(const Ip42Message& message) {
