@@ -20,6 +20,7 @@ constexpr std::array<char, 4> kAcknowledgement = {'A', 'c', 'k', '\0'};
 // Longest time from the accepted `expose` to the published frame.
 constexpr std::int64_t kPatience_ns = 60 * kSecond_ns;
 constexpr std::int64_t kStopStep_ns = kSecond_ns / 20;
+constexpr std::uint64_t kMostFarewells = 10;  // the largest number that is named
 
 const char* reason_of(CommandStatus status) {
     switch (status) {
@@ -65,6 +66,7 @@ class Ip42Receiver : public CommandReceiver {
     void serve(const Fd& socket);
     bool take(const Ip42Stream::Found& found, const Fd& socket, std::int64_t arrival_ns);
     void step(const Ip42Message& message, std::int64_t arrival_ns);
+    void remark(const std::string& topic, const std::string& text);
     void refuse(const std::string& topic, const std::string& text);
     void carry_out(const std::vector<Command>& commands);
     bool command(const Command& command);
@@ -107,9 +109,8 @@ void Ip42Receiver::run() {
     while (!stopping_) {
         const Fd socket = peer_.meet(wakeup_);
         if (!socket) {
-            const std::lock_guard lock(saying_);
             if (const std::string why = peer_.trouble(); !why.empty())
-                remarks_.remark("call", why + "; it is tried again");
+                remark("call", why + "; it is tried again");
             continue;
         }
         setup_.note("42 is connected, " + peer_.name());
@@ -119,10 +120,10 @@ void Ip42Receiver::run() {
         serve(socket);
         peer_.leave();
         if (stopping_) return;
-        // Each time is named, and the number of remarks is limited.
-        refuse("gone " + std::to_string(++times_gone_),
-               "42 went away after " + std::to_string(steps_here_) + " steps" +
-                   (setup_.config.stay ? "; it is waited for" : "; the run ends"));
+        if (++times_gone_ <= kMostFarewells)
+            remark("gone " + std::to_string(times_gone_),
+                   "42 went away after " + std::to_string(steps_here_) + " steps" +
+                       (setup_.config.stay ? "; it is waited for" : "; the run ends"));
         if (!setup_.config.stay) over_ = true;
     }
 }
@@ -188,8 +189,7 @@ void Ip42Receiver::step(const Ip42Message& message, std::int64_t arrival_ns) {
     const std::string bound = plain(setup_.config.hold_s * 1e3) + " ms (commands.ip42.hold_ms)";
     if (outcome == BoundedWorker::Outcome::kLate) {
         setup_.counts->late_frames.fetch_add(1, std::memory_order_relaxed);
-        const std::lock_guard lock(saying_);
-        remarks_.remark("late", "a frame was not done within " + bound + ": 42 went on before it was");
+        remark("late", "a frame was not done within " + bound + ": 42 went on before it was");
     }
     if (outcome == BoundedWorker::Outcome::kBusy) {
         setup_.counts->dropped_steps.fetch_add(1, std::memory_order_relaxed);
@@ -197,10 +197,15 @@ void Ip42Receiver::step(const Ip42Message& message, std::int64_t arrival_ns) {
     }
 }
 
-void Ip42Receiver::refuse(const std::string& topic, const std::string& text) {
-    if (!topic.starts_with("gone")) refused_.fetch_add(1, std::memory_order_relaxed);
+// Any of the receiver's threads, as refuse().
+void Ip42Receiver::remark(const std::string& topic, const std::string& text) {
     const std::lock_guard lock(saying_);
     remarks_.remark(topic, text);
+}
+
+void Ip42Receiver::refuse(const std::string& topic, const std::string& text) {
+    refused_.fetch_add(1, std::memory_order_relaxed);
+    remark(topic, text);
 }
 
 // Worker, as the next two.
@@ -227,8 +232,10 @@ void Ip42Receiver::photograph(TimeTai time) {
     if (!command(ExposeCommand{time, 1, true})) return;
     const std::int64_t end_ns = monotonic_ns() + kPatience_ns;
     for (Ip42Sink* const sink : setup_.sinks)
-        while (!sink->wait_until(monotonic_ns() + kStopStep_ns))
-            if (stopping_ || monotonic_ns() > end_ns) return;
+        while (!sink->wait_until(monotonic_ns() + kStopStep_ns)) {
+            if (stopping_) return;
+            if (monotonic_ns() > end_ns) return remark("no frame", "a frame did not come");
+        }
 }
 
 CommandReport Ip42Receiver::report() const {
