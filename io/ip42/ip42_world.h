@@ -32,7 +32,7 @@ namespace hilcam {
 
 // Maps a body of 42 to the thing of the scenario that it moves.
 struct Ip42BodyConfig {
-    std::string body = "SC[0].B[0]";
+    std::string body;
     std::string moves = "camera";
     std::int64_t joint = 0;  // from 1; 0: the thing itself
     std::int64_t orbit = 0;

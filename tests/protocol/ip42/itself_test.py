@@ -18,12 +18,13 @@ import unittest
 import numpy
 from PIL import Image
 
-from case42 import Case
 from tap import Tap
 
 HILCAM = os.path.abspath(sys.argv[1])
 HERE = pathlib.Path(__file__).resolve().parent
 PROGRAM = os.environ.get("HILCAM_42", "")
+sys.path.insert(0, str(HERE.parents[2] / "tools/ip42"))
+from make_case import Case  # noqa: E402
 os.environ.setdefault("HILCAM_CACHE", tempfile.gettempdir() + f"/hilcam_test_cache_{os.getuid()}")
 
 FOCAL_PX = 5e-3 / 5.5e-6
@@ -90,7 +91,8 @@ class Flight:
         scenario_file.write_text(text.replace("../vizard/", f"{HERE.parent}/vizard/").replace("../../../", f"{HERE.parents[2]}/"))
         port = free_port()
         self.tap = None if serves else Tap(port)
-        case = Case(PROGRAM, f"hilcam_case_{os.getpid()}_{port}", port if serves else self.tap.port, serves, duration_s)
+        home = pathlib.Path(PROGRAM).resolve().parent
+        case = Case(home, f"hilcam_case_{os.getpid()}_{port}", port if serves else self.tap.port, serves, duration_s)
         sets = (f"commands.ip42.port={port}", f"commands.ip42.role={'client' if serves else 'server'}", f"commands.ip42.steps_per_frame={steps_per_frame}", f"outputs.files.folder={folder}/frames", *sets)
         command = [HILCAM, "run", str(scenario_file), "--report", f"{folder}/report.json"]
         for value in sets:
@@ -102,7 +104,7 @@ class Flight:
                 while not serves and "running" not in self.log_file.read_text() and hilcam.poll() is None:
                     time.sleep(0.05)  # 42 as a client ends when nobody listens
                 begun = time.monotonic()
-                self.status_42 = subprocess.run([str(case.program), case.folder.name], cwd=case.home, stdout=log42, stderr=log42,
+                self.status_42 = subprocess.run([str(pathlib.Path(PROGRAM).resolve()), case.folder.name], cwd=home, stdout=log42, stderr=log42,
                                                 timeout=1500, check=False).returncode
                 self.seconds = time.monotonic() - begun
                 self.status = hilcam.wait(60)

@@ -1,8 +1,12 @@
-"""A case for 42: two spacecraft near each other in a low orbit, made from the sample files in 42's own folder InOut.
+#!/usr/bin/python3
+"""Makes a case for the simulator 42 from the sample files in its folder InOut: two spacecraft that meet in a low orbit (docs/42.md).
 
-Spacecraft 0 has the camera (+z of its body 0) and holds it along the orbit's velocity, its +y down to the Earth. Spacecraft 1 drifts past in
-front of it, turning. Spacecraft 1 has a wing on a joint, which turns, too.
+    make_case.py FOLDER_OF_42 [--name rendezvous] [--port 10001] [--serve] [--seconds 480]
+
+Spacecraft 0 has the camera (+z of its body 0) and holds it along the orbit's velocity, its +y down to the Earth. Spacecraft 1 is 40 m ahead,
+turns, and comes nearer; it has a wing on a joint (body 1), which turns, too. 42 connects to hilcam; with --serve, hilcam connects to 42.
 """
+import argparse
 import pathlib
 import re
 import shutil
@@ -26,11 +30,10 @@ def write(path, lines):
 
 
 class Case:
-    def __init__(self, program, name, port, serves, duration_s=60.0):
-        """program: 42 in its own folder. serves: 42 is the SERVER."""
-        self.program = pathlib.Path(program).resolve()
-        self.home, self.folder = self.program.parent, self.program.parent / name
-        shutil.copytree(self.home / "InOut", self.folder, dirs_exist_ok=True)
+    def __init__(self, home, name, port, serves, duration_s):
+        """home: 42's folder. serves: 42 is the SERVER."""
+        self.folder = pathlib.Path(home) / name
+        shutil.copytree(pathlib.Path(home) / "InOut", self.folder, dirs_exist_ok=True)
         self.write_sim(duration_s)
         self.write_spacecraft()
         write(self.folder / "Inp_IPC.txt",
@@ -71,3 +74,15 @@ class Case:
 
     def remove(self):
         shutil.rmtree(self.folder)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("home", help="42's own folder")
+    parser.add_argument("--name", default="rendezvous")
+    parser.add_argument("--port", type=int, default=10001)
+    parser.add_argument("--serve", action="store_true", help="hilcam connects to 42")
+    parser.add_argument("--seconds", type=float, default=480)
+    options = parser.parse_args()
+    Case(options.home, options.name, options.port, options.serve, options.seconds)
+    print(f"now, in {options.home}: ./42 {options.name}")
