@@ -271,6 +271,8 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
     const CommandsConfig& c = scenario.commands;
     if (c.has_udp) port("commands.udp.port", c.udp.address, c.udp.port, false);
     if (c.has_tcp) port("commands.tcp.port", c.tcp.address, c.tcp.port, true);
+    if (c.has_ip42 && c.ip42.role == Ip42Role::kServer)
+        port("commands.ip42.port", c.ip42.address, c.ip42.port, true);
     if (const auto& udp = scenario.lines.udp) port("lines.udp.port", udp->address, udp->port, false);
     return needs;
 }

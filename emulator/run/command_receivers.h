@@ -18,6 +18,11 @@ std::vector<std::unique_ptr<CommandReceiver>> make_receivers(const CommandsConfi
 std::unique_ptr<CommandReceiver> make_vizard(const ScenarioConfig& scenario,
                                              const std::vector<std::unique_ptr<CameraStation>>& stations,
                                              CommandHandler& handler);
+// Makes the receiver of 42's states, and an output in every camera that knows when a frame is done. Call
+// before the loops are made.
+std::unique_ptr<CommandReceiver> make_ip42(const ScenarioConfig& scenario,
+                                           const std::vector<std::unique_ptr<CameraStation>>& stations,
+                                           CommandHandler& handler);
 // Returns the report of all receivers together.
 CommandReport report_of(const std::vector<std::unique_ptr<CommandReceiver>>& receivers);
 

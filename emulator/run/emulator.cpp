@@ -85,6 +85,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     if (limits.outputs && limits.replay.empty()) {
         receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());
         if (scenario.commands.has_vizard) receivers_.push_back(make_vizard(scenario, stations_, *dispatch_));
+        if (scenario.commands.has_ip42) receivers_.push_back(make_ip42(scenario, stations_, *dispatch_));
     }
     if (limits.outputs) make_telemetry();
     make_replays();

@@ -203,6 +203,16 @@ void check_vizard(const ScenarioConfig& s) {
                              "; accepted with commands.vizard: 0, as its messages place the cameras");
 }
 
+void check_ip42(const ScenarioConfig& s) {
+    const Ip42Config& c = s.commands.ip42;
+    at_key("commands.ip42", [&] { check_bodies(c.bodies, ip42_bench(s)); });
+    const std::optional<BodyId> home = s.origin.center();
+    if (home && *home != BodyId::kEarth && c.pole_rad.empty())
+        throw KeyError("commands.ip42.pole_deg",
+                       "is needed with an origin at " + std::string(kBodyNames[index_of(*home)]) +
+                           ", as 42's frame N has the axes of that world's pole (docs/42.md)");
+}
+
 }  // namespace
 
 std::string governor_off(const ScenarioConfig& s) {
@@ -286,6 +296,7 @@ void validate(const ScenarioConfig& s) {
     check_listening_ports(s);
     check_lines(s);
     if (s.commands.has_vizard) check_vizard(s);
+    if (s.commands.has_ip42) check_ip42(s);
     if (s.mode == CameraMode::kLockstep)
         require_lockstep(s.clock), require_lockstep(s.commands.poses), require_lockstep(s.loop.fail_on);
 }

@@ -105,6 +105,8 @@ EventWorld event_world(const ScenarioConfig& scenario);
 
 // Returns what the Vizard side needs to know about the bench.
 VizardBench vizard_bench(const ScenarioConfig& scenario);
+// Returns what 42 can move.
+Ip42Bench ip42_bench(const ScenarioConfig& scenario);
 
 // Returns the scenario as it is for one of its cameras. index: from 0.
 ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index);

@@ -52,6 +52,17 @@ std::uint64_t seed_of_camera(const ScenarioConfig& scenario, std::size_t index) 
     return seed_of_nth(static_cast<std::uint64_t>(scenario.seed), index);
 }
 
+Ip42Bench ip42_bench(const ScenarioConfig& s) {
+    Ip42Bench bench;
+    bench.origin = s.origin;
+    for (const ObjectConfig& object : s.objects) {
+        Ip42Bench::Object& own = bench.objects.emplace_back();
+        own.name = object.name;
+        for (const JointConfig& joint : object.joints) own.joint_axes.push_back(joint.axis);
+    }
+    return bench;
+}
+
 VizardBench vizard_bench(const ScenarioConfig& s) {
     VizardBench bench;
     bench.start = parse_utc(s.time_utc);

@@ -14,6 +14,7 @@ Fields fields(CommandsConfig& c) {
         optional(section("vizard", c.vizard,
                          "commands from Basilisk, in place of Vizard (docs/vizard.md); needs mode: lockstep"),
                  c.has_vizard),
+        optional(section("ip42", c.ip42, "states of the simulator 42, over TCP (docs/42.md)"), c.has_ip42),
         section("poses", c.poses, "treatment of missing poses and of poses whose time goes backwards"),
     };
 }

@@ -38,6 +38,8 @@ void check_listening_ports(const ScenarioConfig& s) {
         listeners.add("UDP", "commands.udp.port", s.commands.udp.address, s.commands.udp.port);
     if (s.commands.has_tcp)
         listeners.add("TCP", "commands.tcp.port", s.commands.tcp.address, s.commands.tcp.port);
+    if (s.commands.has_ip42 && s.commands.ip42.role == Ip42Role::kServer)
+        listeners.add("TCP", "commands.ip42.port", s.commands.ip42.address, s.commands.ip42.port);
     if (s.telemetry)
         listeners.add("TCP", "telemetry.port", s.telemetry->port.address, s.telemetry->port.port);
     if (s.lines.udp) listeners.add("UDP", "lines.udp.port", s.lines.udp->address, s.lines.udp->port);

@@ -37,7 +37,7 @@ void look_at_askers(const ScenarioConfig& s, Lines& out) {
     const bool lockstep = s.mode == CameraMode::kLockstep;
     const CommandsConfig& c = s.commands;
     const bool port = c.has_udp || c.has_tcp || c.has_unix || c.has_usb || c.has_functionfs || c.has_vizard ||
-                      any_camera(s, [&](const OutputsConfig& o) {
+                      (lockstep && c.has_ip42) || any_camera(s, [&](const OutputsConfig& o) {
                           return o.find<PreviewConfig>() || (!lockstep && o.find<GigeConfig>());
                       });
     const bool event = std::any_of(s.events.begin(), s.events.end(), [&](const EventConfig& e) {
@@ -51,8 +51,8 @@ void look_at_askers(const ScenarioConfig& s, Lines& out) {
     if (lockstep)
         out.push_back(s.places.at(
             "mode",
-            "mode: lockstep, and nothing can request a frame: give commands.udp (or tcp, unix, usb, vizard), "
-            "outputs.preview, or an event that exposes; 'hilcam send expose' then takes one"));
+            "mode: lockstep, and nothing can request a frame: give commands.udp (or tcp, unix, usb, vizard, "
+            "ip42), outputs.preview, or an event that exposes; 'hilcam send expose' then takes one"));
     else
         out.push_back(s.places.at(
             "mode",

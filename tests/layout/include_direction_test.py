@@ -20,7 +20,7 @@ ROOMS = (
     "emulator", "emulator/subcommands",
     "emulator/zoo", "emulator/tradeoff", "emulator/campaign", "emulator/check", "emulator/bench", "emulator/characterise", "emulator/run", "emulator/recording",
     "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion", "emulator/progress", "emulator/ground",
-    "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/packets", "io/shm", "io/truth", "io/commands", "io/lines",
+    "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/ip42", "io/preview", "io/packets", "io/shm", "io/truth", "io/commands", "io/lines",
     "io/spice", "io/maps", "io/meshes", "io/files", "io/cache", "io/images", "io/config", "io/contract", "io/ptp", "io/naif", "io/orbits", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
     "render/frame", "render/paths", "render/indirect", "render/sunlight", "render/ground_shading", "render/primary", "render/shading",
