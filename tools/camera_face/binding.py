@@ -14,6 +14,8 @@ REFUSED = (NoValue, FormulaError, OverflowError, KeyError, ValueError)
 
 # What a formula of a register may be: what depends on nothing else that changes.
 COMPUTED = ("SensorWidth", "SensorHeight", "WidthMax", "HeightMax", "DeviceTemperature", "AcquisitionResultingFrameRate")
+COUNTED = ("SensorWidth", "SensorHeight", "WidthMax", "HeightMax", "Width", "Height", "OffsetX", "OffsetY", "PayloadSize",
+           "BinningHorizontal", "BinningVertical", "AcquisitionFrameCount", "TLParamsLocked")
 KNIVES = ("SwissKnife", "IntSwissKnife")
 
 
@@ -153,17 +155,20 @@ class Binder:
             return None
         return self._mover(("value", name))
 
-    def _mover(self, *whats):
-        """Returns the register not yet bound by which a computed value can be moved."""
-        for address, length, register in sorted(self.ev.uses(*whats), key=str):
+    def _mover(self, what):
+        """Returns the register not yet bound by which a computed value can be moved, best of all by a formula."""
+        kind, name = what
+        choice = None
+        for _, length, register in sorted(self.ev.uses(what), key=str):
             if not register or not length or self._bits(register) & (self.live | self.held):
                 continue
-            kind, name = whats[0]
-            raws = self._samples(register)
-            if fits.fit(self._curve(register, lambda: getattr(self.ev, kind)(name), raws), None, None) is not None or \
-                    len({value for _, value in self._curve(register, lambda: getattr(self.ev, kind)(name), raws)}) > 1:
+            rows = self._curve(register, lambda: getattr(self.ev, kind)(name), self._samples(register))
+            formula = fits.fit(rows, None, None, False)
+            if formula is not None and formula["kind"] != "points":
                 return register
-        return None
+            if len({value for _, value in rows}) > 1:
+                choice = choice or register
+        return choice
 
     # --- kinds of rows
 
@@ -237,8 +242,8 @@ class Binder:
         get = lambda: forward(self.ev.value(name))  # noqa: E731
         put = lambda raw: self.ev.set(register, raw)  # noqa: E731
         formula = fits.fit(fits.curve(put, get, raws), put, get)
-        if formula is None:
-            formula = self._with_parameters(register, name, put, get)
+        if formula is None or not self._is_fine(register, name, formula):
+            formula = self._with_parameters(register, name, put, get) or formula
         self.ev.write_memory(self.ev.place(register), before)
         if formula is None:
             self.notes.append(f"{name}: its register does not move it")
@@ -257,17 +262,34 @@ class Binder:
             if not length or other == register or self._bits(other) & (self.held | self._bits(register)):
                 continue
             before = self.ev.raw(other)
-            for number in (1000000, 1000, 1):
+            found = []
+            for number in (1000000, 100000, 10000, 1000, 100, 16, 10, 8, 1):
                 try:
                     self.ev.set(other, number)
                 except REFUSED:
                     break
-                formula = fits.fit(fits.curve(put, get, self._samples(register)), put, get)
+                formula = fits.fit(fits.curve(put, get, self._samples(register)), put, get, False)
                 if formula is not None:
-                    self._hold(other)
-                    return formula
+                    found.append((self._is_fine(register, name, formula), -len(found), number, formula))
+            if found:
+                _, _, number, formula = max(found, key=lambda f: f[:2])
+                self.ev.set(other, number)
+                self._hold(other)
+                return formula
             self.ev.write_memory(self.ev.place(other), before)
         return None
+
+    def _is_fine(self, register, name, formula):
+        """True where the register has steps of at most a hundredth for the value at the start, and room for the limits."""
+        feature = BY_NAME[name].feature if name in BY_NAME else None
+        if self.ev.node(register).tag == "FloatReg" or formula["kind"] == "points":
+            return True
+        values = [self.camera.values.get(feature) or 0, *self.camera.limits.get(feature, ())]
+        raws = [fits.inverse(formula, value) for value in values]
+        low, high = self.ev.bits(register)
+        if feature in COUNTED:
+            return None not in raws
+        return None not in raws and (abs(raws[0]) >= 100 or values[0] == 0) and max(map(abs, raws)) < 1 << high - low + 1
 
     def _numbered_choice(self, role, name, register, row):
         """Binning as a list of entries, by the number in their names."""

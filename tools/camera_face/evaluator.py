@@ -348,12 +348,37 @@ class Evaluator:
             if source is not None:
                 return self._bound(source, tag, which)
         if node.tag in ("Converter", "IntConverter"):
+            source = node.text("pValue")
+            if self._is_unlimited(source):
+                return self._bound_of_formula(node, which)
             ends = []
             for end in (0, 1):
                 raw = self._bound(node.text("pValue"), ("Min", "Max")[end], end)
                 ends.append(self._formula(node, "FormulaFrom", node.tag == "IntConverter", {"TO": raw}))
             return (min, max)[which](ends)
         return (-math.inf, math.inf)[which]
+
+    def _is_unlimited(self, name):
+        """True where nothing but a register's size limits a value."""
+        for _ in range(100):
+            node = self.nodes.get(name)
+            if node is None or any(node.text(tag) for tag in ("Min", "pMin", "Max", "pMax")):
+                return False
+            if node.tag in REGISTERS:
+                return True
+            name = node.text("pValue") if node.tag in ("Converter", "IntConverter") else self.source(name)
+        return False
+
+    def _bound_of_formula(self, node, which):
+        """Where nothing but the register's size is a limit, a formula may have no value at its ends."""
+        ends = []
+        for end in (0, 1):
+            try:
+                raw = self._bound(node.text("pValue"), ("Min", "Max")[end], end)
+                ends.append(self._formula(node, "FormulaFrom", node.tag == "IntConverter", {"TO": raw}))
+            except (NoValue, FormulaError, OverflowError, ValueError):
+                return (-math.inf, math.inf)[which]
+        return (min, max)[which](ends)
 
     def step(self, name):
         def compute():

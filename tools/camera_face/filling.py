@@ -81,11 +81,11 @@ class Filler:
         least, most = self.ev.least(name), self.ev.most(name)
         if not math.isfinite(value) or not least <= value <= most:
             slack = 1e-6 * max(abs(value), 1)
-            if not math.isfinite(value) or not least - slack <= value <= most + slack or name not in self.bound:
+            if not math.isfinite(value) or not least - slack <= value <= most + slack:
                 return False
         if node.tag == "Integer" and self.ev.step(name) < 1:
             return False
-        writable = self.ev.access(name) == "RW" and not self.ev.locked(name)
+        writable = self.ev.access(name) == "RW"
         return most > least or not writable or name in self.bound or self._fixed(name)
 
     def _fixed(self, name):

@@ -41,12 +41,16 @@ def _solve(rows, x_of):
     a = (y1 - y0) / (x1 - x0)
     b = y0 - a * x0
     span = max(abs(y) for _, y in rows)
+    if abs(b) < EXACT * min(span, 1):
+        b = 0.0
+    if abs(a) < 1e-15:
+        return None
     if all(abs(a * x + b - y) <= EXACT * max(abs(y), 1e-3 * span, 1e-12) for x, y in rows):
         return a, b
     return None
 
 
-def fit(rows, put, get):
+def fit(rows, put, get, with_points=True):
     """Returns a formula for the table: linear, reciprocal, logarithm, or points; None where the value does not change."""
     if len(rows) < 2 or all(value == rows[0][1] for _, value in rows):
         return None
@@ -59,6 +63,8 @@ def fit(rows, put, get):
             found = _solve(positive, x_of)
             if found:
                 return {"kind": kind, "scale": tidy(found[0]), "offset": tidy(found[1])}
+    if not with_points:
+        return None
     more = rows
     if isinstance(rows[0][0], int) and rows[-1][0] - rows[0][0] <= 1024:
         more = curve(put, get, range(rows[0][0], rows[-1][0] + 1))

@@ -16,10 +16,10 @@ class Role:
 
 ROLES = (
     Role("SensorWidth", ("SensorWidth",)), Role("SensorHeight", ("SensorHeight",)),
-    Role("WidthMax", ("WidthMax",)), Role("HeightMax", ("HeightMax",)),
     Role("BinningHorizontal", ("BinningHorizontal",), selector="BinningSelector", limits=True),
     Role("BinningVertical", ("BinningVertical",), selector="BinningSelector", limits=True),
     Role("OffsetX", ("OffsetX",), limits=True), Role("OffsetY", ("OffsetY",), limits=True),
+    Role("WidthMax", ("WidthMax",)), Role("HeightMax", ("HeightMax",)),
     Role("Width", ("Width",), limits=True), Role("Height", ("Height",), limits=True),
     Role("ReverseX", ("ReverseX",), "switch"), Role("ReverseY", ("ReverseY",), "switch"),
     Role("PixelFormat", ("PixelFormat",), "choice"),
@@ -43,7 +43,7 @@ ROLES = (
     Role("TriggerSoftware", ("TriggerSoftware",), "command", selector="TriggerSelector"),
     Role("ChunkModeActive", ("ChunkModeActive",), "switch"),
     Role("ChunkEnable", ("ChunkEnable",), "switch", selector="ChunkSelector"),
-    Role("DeviceTemperature", ("DeviceTemperature", "TemperatureAbs"), unit="C", selector="DeviceTemperatureSelector"),
+    Role("DeviceTemperature", ("DeviceTemperature", "TemperatureAbs"), unit="C", selector="DeviceTemperatureSelector", limits=True),
     Role("PtpEnable", ("PtpEnable", "GevIEEE1588"), "switch"),
     Role("PtpDataSetLatch", ("PtpDataSetLatch", "GevIEEE1588DataSetLatch"), "command"),
     Role("PtpStatus", ("PtpStatus", "GevIEEE1588StatusLatched", "GevIEEE1588Status"), "choice"),
@@ -125,6 +125,7 @@ class Camera:
             "BinningHorizontal": (1, binning), "BinningVertical": (1, binning), "AcquisitionFrameCount": (1, 65535),
             "ExposureTime": (1000 * exposure[0], 1000 * exposure[1]), "AcquisitionFrameRate": tuple(rate), "Gain": tuple(gain),
             "BlackLevel": (0, 2 ** self.bits / 4), "TriggerDelay": (0, 1e7),
+            "DeviceTemperature": (-273.15, 1000),
         }
         self.full_scale = full
 
