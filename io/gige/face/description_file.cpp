@@ -17,14 +17,14 @@ std::string read_description(const std::filesystem::path& file) {
 std::string description_of(const std::string& bytes, const std::string& name) {
     const std::span raw(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     const std::string text = is_zip(raw) ? unzip_first(raw, kMaxDescriptionBytes, name) : bytes;
-    constexpr std::string_view kRoot = "<RegisterDescription", kEnd = "</RegisterDescription>";
+    constexpr std::string_view kRoot = "<RegisterDescription", kClosing = "</RegisterDescription>";
     const std::size_t begin = std::min(text.find("<?xml"), text.find(kRoot));
     if (begin == std::string::npos)
         throw InputError(name + ": found " + in_quotes(std::string_view(text).substr(0, 40)) +
                          "; accepted: a GenICam description, which has <RegisterDescription");
     if (text.find(kRoot, begin) == std::string::npos)
         throw InputError(name + ": is an XML without <RegisterDescription; accepted: a GenICam description");
-    if (text.rfind(kEnd) == std::string::npos)
+    if (text.rfind(kClosing) == std::string::npos)
         throw InputError(name + ": has no </RegisterDescription>; it is cut");
     return text.substr(begin);
 }

@@ -12,7 +12,7 @@ using nlohmann::json;
 
 json parsed_face_json(const std::string& text, const std::string& name) {
     // Deeper than any table is: the parser needs stack for each level.
-    constexpr int kDeepest = 16;
+    constexpr int kDeepestTable = 16;
     int depth = 0;
     bool quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -24,8 +24,8 @@ json parsed_face_json(const std::string& text, const std::string& name) {
             ++depth;
         else if (!quoted && (text[i] == '}' || text[i] == ']'))
             --depth;
-        if (depth > kDeepest)
-            throw InputError(name + ": is nested more than " + std::to_string(kDeepest) + " deep");
+        if (depth > kDeepestTable)
+            throw InputError(name + ": is nested more than " + std::to_string(kDeepestTable) + " deep");
     }
     try {
         return json::parse(text);

@@ -30,9 +30,9 @@ struct FaceRow {
     enum class Of : std::uint8_t { kValue, kLeast, kMost, kCommand } of = Of::kValue;
     std::string feature{};  // hilcam's (gige_features.h)
     RegisterField field;
-    RegisterFormula formula{};           // of numbers
-    std::vector<FaceValue> values{};     // of choices; then the formula means nothing
-    std::uint64_t command = 0;           // what is written to run it
+    RegisterFormula formula{};           // meaning of a number
+    std::vector<FaceValue> values{};     // numbers of choices; with them the formula means nothing
+    std::uint64_t command = 0;           // the number that runs it
     std::vector<FaceGuard> when{};       // all must hold
     std::string selector{}, selected{};  // hilcam's selector and its entry; empty: none
 };
@@ -64,7 +64,7 @@ struct FaceTable {
     std::uint32_t description_crc32 = 0;
     std::uint32_t description_bytes = 0;
     std::string vendor{}, model{}, version{};
-    int width_px = 0, height_px = 0;  // of the camera that it was made for
+    int width_px = 0, height_px = 0;  // size of the camera that the table was made for
     std::vector<FaceRow> rows{};
     std::vector<FaceCommand> self_clearing{};
     std::uint32_t image_chunk_id = 0;

@@ -10,7 +10,7 @@ namespace hilcam {
 struct RegisterField {
     enum class Kind : std::uint8_t { kUnsigned, kSigned, kFloat };
     std::uint32_t address = 0;
-    std::uint32_t bytes = 4;  // of the register, 1 to 8; a float has 4 or 8
+    std::uint32_t bytes = 4;  // size of the register, 1 to 8; a float has 4 or 8
     bool little_endian = false;
     int low = 0, high = 31;  // bits of the register's number; bit 0 is the least significant
     Kind kind = Kind::kUnsigned;

@@ -7,9 +7,9 @@
 namespace hilcam {
 namespace {
 
-constexpr double kMost = 1e300;
+constexpr double kLargest = 1e300;
 
-double finite(double number) { return std::isnan(number) ? 0 : std::clamp(number, -kMost, kMost); }
+double finite(double number) { return std::isnan(number) ? 0 : std::clamp(number, -kLargest, kLargest); }
 
 double between(const std::pair<double, double>& a, const std::pair<double, double>& b, double x) {
     return a.second + (x - a.first) / (b.first - a.first) * (b.second - a.second);
@@ -43,7 +43,7 @@ double RegisterFormula::value(double raw) const {
         case Kind::kLinear:
             return finite(scale * raw + offset);
         case Kind::kReciprocal:
-            return finite(raw == 0 ? std::copysign(kMost, scale) : scale / raw + offset);
+            return finite(raw == 0 ? std::copysign(kLargest, scale) : scale / raw + offset);
         case Kind::kLogarithm:
             return finite(scale * std::log(std::max(raw, 1e-300)) + offset);
         case Kind::kPoints:
@@ -57,7 +57,7 @@ double RegisterFormula::raw(double value) const {
     const double y = (value - offset) / scale;
     switch (kind) {
         case Kind::kReciprocal:
-            return finite(y == 0 ? kMost : 1 / y);
+            return finite(y == 0 ? kLargest : 1 / y);
         case Kind::kLogarithm:
             return finite(std::exp(std::min(y, 690.0)));
         default:

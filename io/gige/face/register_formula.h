@@ -1,5 +1,5 @@
 #pragma once
-// What a register's number means in hilcam's units: the vendor's converters, resolved (docs/camera_face.md). A pure function
+// The meaning of a register's number in hilcam's units: the vendor's converters, resolved (docs/camera_face.md). A pure function
 // and its inverse.
 
 #include <cstdint>

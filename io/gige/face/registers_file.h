@@ -1,5 +1,5 @@
 #pragma once
-// What `hilcam-camera-face record` read from a real camera: a line `# hilcam registers 1`, then an address and bytes a line,
+// A file that `hilcam-camera-face record` wrote of a real camera: a line `# hilcam registers 1`, then an address and bytes a line,
 // as `0x0000a104 00000280`. What follows a # is a remark.
 
 #include <cstdint>

@@ -10,8 +10,8 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uint32_t kLocal = 0x04034b50, kEntry = 0x02014b50, kEnd = 0x06054b50;
-constexpr std::size_t kLocalBytes = 30, kEntryBytes = 46, kEndBytes = 22, kMaxRemark = 65535;
+constexpr std::uint32_t kLocalHeader = 0x04034b50, kDirectoryEntry = 0x02014b50, kDirectoryEnd = 0x06054b50;
+constexpr std::size_t kLocalBytes = 30, kEntryBytes = 46, kDirectoryEndBytes = 22, kMaxRemark = 65535;
 constexpr std::uint32_t kStored = 0, kDeflated = 8;
 
 // Little-endian numbers; 0 past the end.
@@ -23,10 +23,10 @@ std::uint32_t number(std::span<const std::uint8_t> b, std::size_t at, std::size_
 
 // The directory's end is behind everything but a remark.
 std::size_t end_of_directory(std::span<const std::uint8_t> b) {
-    if (b.size() < kEndBytes) return 0;
-    const std::size_t last = b.size() - kEndBytes, first = last > kMaxRemark ? last - kMaxRemark : 0;
+    if (b.size() < kDirectoryEndBytes) return 0;
+    const std::size_t last = b.size() - kDirectoryEndBytes, first = last > kMaxRemark ? last - kMaxRemark : 0;
     for (std::size_t at = last + 1; at-- > first;)
-        if (number(b, at, 4) == kEnd) return at;
+        if (number(b, at, 4) == kDirectoryEnd) return at;
     return 0;
 }
 
@@ -47,7 +47,7 @@ bool inflated(std::span<const std::uint8_t> from, std::string& out) {
 }  // namespace
 
 bool is_zip(std::span<const std::uint8_t> bytes) {
-    return bytes.size() >= 4 && number(bytes, 0, 4) == kLocal;
+    return bytes.size() >= 4 && number(bytes, 0, 4) == kLocalHeader;
 }
 
 std::string unzip_first(std::span<const std::uint8_t> b, std::size_t max_bytes, const std::string& name) {
@@ -57,7 +57,8 @@ std::string unzip_first(std::span<const std::uint8_t> b, std::size_t max_bytes, 
     const std::size_t end = end_of_directory(b);
     if (end == 0) throw refuse("it has no directory; it may be cut");
     const std::size_t entry = number(b, end + 16, 4);
-    if (entry + kEntryBytes > end || number(b, entry, 4) != kEntry) throw refuse("its directory is damaged");
+    if (entry + kEntryBytes > end || number(b, entry, 4) != kDirectoryEntry)
+        throw refuse("its directory is damaged");
     const std::uint32_t method = number(b, entry + 10, 2), sum = number(b, entry + 16, 4);
     const std::size_t packed = number(b, entry + 20, 4), size = number(b, entry + 24, 4);
     const std::size_t local = number(b, entry + 42, 4);
@@ -67,7 +68,7 @@ std::string unzip_first(std::span<const std::uint8_t> b, std::size_t max_bytes, 
     if (size > max_bytes)
         throw InputError(name + ": unzips to " + std::to_string(size) + " bytes; accepted: at most " +
                          std::to_string(max_bytes));
-    if (local + kLocalBytes > b.size() || number(b, local, 4) != kLocal)
+    if (local + kLocalBytes > b.size() || number(b, local, 4) != kLocalHeader)
         throw refuse("its first file is damaged");
     const std::size_t data = local + kLocalBytes + number(b, local + 26, 2) + number(b, local + 28, 2);
     if (data > b.size() || packed > b.size() - data) throw refuse("it is cut");
