@@ -1,6 +1,7 @@
-// The files of another camera's face: [u8 which][the file]. 0: a face table; 1: a registers file; 2: a description, plain or
-// zipped. Whatever they hold, they are read or refused in one line; a table that was read is worn by a camera, whose registers
-// clients then read and write, and what the stream side is told stays something that it can do.
+// The files of another camera's face: [u8 which][the file]. 0: a face table; 1: a registers file; 2: a
+// description, plain or zipped. Whatever they hold, they are read or refused in one line; a table that was
+// read is worn by a camera, whose registers clients then read and write, and what the stream side is told
+// stays something that it can do.
 
 #include <memory>
 #include <random>

@@ -52,7 +52,7 @@ CameraFace::CameraFace(const CameraFaceFiles& files, GigeRegisterFile& own, cons
     }
 }
 
-// What was recorded is the real camera's; the table has what was missing.
+// Recorded registers are the real camera's; the table has what was missing.
 void CameraFace::reset() {
     memory_ = {};
     for (const RegisterRun& run : files_.table.memory) memory_.write(run.address, run.bytes);
@@ -190,7 +190,7 @@ std::uint64_t CameraFace::live_bits(const Row& row) {
     select(row);
     const double number = number_of_feature(*row.feature);
     if (face.values.empty()) return bits_of(face.field, face.formula.raw(number));
-    // Of several numbers that mean the same, the one that was written.
+    // Several numbers may mean the same: the one that was written stays.
     const std::uint64_t stored = stored_bits(face.field);
     std::optional<std::uint64_t> first;
     for (const auto& [raw, value] : row.values) {
@@ -277,7 +277,7 @@ Status CameraFace::write(std::uint32_t address, std::span<const std::uint8_t> da
 Status CameraFace::write_words(std::uint32_t address, std::span<const std::uint8_t> data, bool locked) {
     std::vector<std::uint8_t> before(data.size());
     compose(address, before);
-    std::vector<std::uint8_t> kept(data.begin(), data.end());  // what memory holds afterwards
+    std::vector<std::uint8_t> kept(data.begin(), data.end());  // contents of the memory afterwards
     const auto part = [&](const RegisterField& f, std::span<const std::uint8_t> bytes) {
         std::array<std::uint8_t, 8> whole{};
         for (std::uint32_t k = f.first_byte(); k < f.end_byte(); ++k)

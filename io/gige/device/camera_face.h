@@ -1,11 +1,13 @@
 #pragma once
-// A camera's registers as another camera's description has them (io/gige/face): reads and writes of the fields that the face
-// table binds become reads and writes of hilcam's own features, everything else is memory. The standard's registers, below
-// kFirstOfDevice, stay hilcam's own. One thread: the one that serves the control port.
+// A camera's registers as another camera's description has them (io/gige/face): reads and writes of the
+// fields that the face table binds become reads and writes of hilcam's own features, everything else is
+// memory. The standard's registers, below kFirstOfDevice, stay hilcam's own. One thread: the one that
+// serves the control port.
 //
-// A write goes field by field: fields whose bits change are set, then commands run; the first that refuses ends the write and
-// leaves the registers as they were. A row whose guards (the vendor's selectors) do not hold is memory for that time. Formulas
-// invert with rounding, so a number that hilcam took reads back as the number that was written.
+// A write goes field by field: fields whose bits change are set, then commands run; the first that refuses
+// ends the write and leaves the registers as they were. A row whose guards (the vendor's selectors) do not
+// hold is memory for that time. Formulas invert with rounding, so a number that hilcam took reads back as
+// the number that was written.
 
 #include <cstdint>
 #include <map>
@@ -27,13 +29,14 @@ class CameraFace {
     using Status = gvcp::Status;
     static constexpr std::uint32_t kFirstOfDevice = 0xA000;
 
-    // own: hilcam's registers, which outlive this, as do the files. features: its features. xml_place, xml_bytes: where own has
-    // the description. Throws InputError for a row with a feature that hilcam never has, and for a table of a camera of
-    // another size.
+    // own: hilcam's registers, which outlive this, as do the files. features: its features. xml_place,
+    // xml_bytes: where own has the description. Throws InputError for a row with a feature that hilcam
+    // never has, and for a table of a camera of another size.
     CameraFace(const CameraFaceFiles& files, GigeRegisterFile& own, const FeatureTable& features,
                std::uint32_t xml_place, std::size_t xml_bytes);
 
-    // As GigeRegisterFile's. Where the description has no register, memory reads as what was written, at first 0.
+    // These are GigeRegisterFile's. Where the description has no register, memory reads as what was
+    // written, at first 0.
     Status read(std::uint32_t address, std::span<std::uint8_t> out);
     Status write(std::uint32_t address, std::span<const std::uint8_t> data, bool locked, std::size_t& done);
 

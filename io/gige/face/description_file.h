@@ -1,6 +1,7 @@
 #pragma once
-// A camera's GenICam description as a file: text, a zip with one XML, or what `arv-tool genicam > file` leaves, which has a
-// line before the XML. hilcam serves the text from its first '<' on and does not look into it.
+// A camera's GenICam description as a file: text, a zip with one XML, or what `arv-tool genicam > file`
+// leaves, which has a line before the XML. hilcam serves the text from its first '<' on and does not look
+// into it.
 
 #include <filesystem>
 #include <string>

@@ -22,8 +22,8 @@ std::shared_ptr<const CameraFaceFiles> read_face(const std::filesystem::path& de
                                                  const std::filesystem::path& table,
                                                  const std::filesystem::path& registers);
 
-// Returns a multiple of 4096 from which `bytes` bytes are free, in the middle of the largest gap between the registers that the
-// table names. Throws InputError when there is none.
+// Returns a multiple of 4096 from which `bytes` bytes are free, in the middle of the largest gap between
+// the registers that the table names. Throws InputError when there is none.
 std::uint32_t free_place(const FaceTable& table, std::size_t bytes);
 
 }  // namespace hilcam

@@ -1,5 +1,6 @@
 #pragma once
-// A place in a face table's JSON, which knows where it is: what is not as expected ends in an InputError that says so.
+// A place in a face table's JSON, which knows where it is: what is not as expected ends in an InputError
+// that says so.
 
 #include <cstdint>
 #include <initializer_list>
@@ -22,7 +23,7 @@ class FaceJson {
     bool has(const char* key) const;  // and it is not null
     FaceJson at(const char* key) const;
     FaceJson at(std::size_t index) const;
-    std::size_t size(std::size_t least, std::size_t most) const;  // of a list
+    std::size_t size(std::size_t least, std::size_t most) const;  // number of a list's values
 
     std::int64_t whole(std::int64_t least, std::int64_t most) const;
     double number() const;          // finite

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uint32_t kTableVersion = 1, kMaxChunkBytes = 1024;
+constexpr std::uint32_t kFaceVersion = 1, kMaxChunkBytes = 1024;
 constexpr std::size_t kMaxPoints = 2048, kMaxName = 64;
 
 RegisterField field_of(const FaceJson& j) {
@@ -155,7 +155,7 @@ FaceTable face_table_of(const std::string& json, const std::string& name) {
     if (!j.has("hilcam_face"))
         throw InputError(name +
                          ": has no hilcam_face; accepted: the table that hilcam-camera-face bind writes");
-    j.at("hilcam_face").whole(kTableVersion, kTableVersion);
+    j.at("hilcam_face").whole(kFaceVersion, kFaceVersion);
     FaceTable table;
     table.description_crc32 = j.at("description").at("crc32").address();
     table.description_bytes = static_cast<std::uint32_t>(j.at("description").at("bytes").whole(1, 1u << 30));

@@ -1,6 +1,7 @@
 #pragma once
-// The table that `hilcam-camera-face bind` makes of a camera's GenICam description: where the features that hilcam acts on
-// are among the camera's registers, and what every other register holds. docs/camera_face.md describes its JSON.
+// The table that `hilcam-camera-face bind` makes of a camera's GenICam description: where the features that
+// hilcam acts on are among the camera's registers, and what every other register holds. docs/camera_face.md
+// describes its JSON.
 
 #include <cstdint>
 #include <string>
@@ -75,7 +76,8 @@ struct FaceTable {
 
 inline constexpr std::size_t kMaxFaceBytes = std::size_t{16} << 20;
 
-// Throws InputError for what is no such table, with the place in it; also when two rows of values share bits of a register.
+// Throws InputError for what is no such table, with the place in it; also when two rows of values share
+// bits of a register.
 FaceTable face_table_of(const std::string& json, const std::string& name);
 // Throws InputError when the table was made of another description.
 void check_description(const FaceTable& table, const std::string& xml, const std::string& table_name,

@@ -1,6 +1,6 @@
 #pragma once
-// A number in some bits of a register, as a GenICam description's IntReg, MaskedIntReg, StructEntry and FloatReg have it
-// (GenICam Standard 2.1.1, 2.8.8 to 2.8.11). Pure functions.
+// A number in some bits of a register, as a GenICam description's IntReg, MaskedIntReg, StructEntry and
+// FloatReg have it (GenICam Standard 2.1.1, 2.8.8 to 2.8.11). Pure functions.
 
 #include <cstdint>
 #include <span>
@@ -16,7 +16,8 @@ struct RegisterField {
     Kind kind = Kind::kUnsigned;
 
     int bits() const { return high - low + 1; }
-    // Returns the first byte that the field's bits are in, from the register's address, and the one behind the last.
+    // Returns the first byte that the field's bits are in, from the register's address, and the one behind
+    // the last.
     std::uint32_t first_byte() const;
     std::uint32_t end_byte() const;
 };

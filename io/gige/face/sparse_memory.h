@@ -1,5 +1,6 @@
 #pragma once
-// A memory of 32-bit addresses of which little is used: it reads as zeros where nothing was written. One thread.
+// A memory of 32-bit addresses of which little is used: it reads as zeros where nothing was written. One
+// thread.
 
 #include <algorithm>
 #include <array>

@@ -28,7 +28,8 @@ struct GigeChunkLayout {
     std::uint32_t image_id = 0;
     std::vector<Part> parts{};
 
-    // Returns the bytes of enabled parts and of the image's id and length, each with 8 bytes of id and length.
+    // Returns the bytes of enabled parts and of the image's id and length, each with 8 bytes of id and
+    // length.
     std::size_t bytes(std::uint32_t enabled) const;
 };
 

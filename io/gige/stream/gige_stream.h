@@ -16,8 +16,8 @@ struct Endpoint {
     friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
 
-// Chunks that may follow a frame's pixels; bits of GigeStreamState::chunks. A chunk's id is kChunkIdBase plus
-// its value. Numbers are big-endian, floats IEEE 754.
+// Chunks that may follow a frame's pixels; bits of GigeStreamState::chunks. A chunk's id is kChunkIdBase
+// plus its value. Numbers are big-endian, floats IEEE 754.
 enum class Chunk : std::uint8_t {
     kFrameId,          // u64
     kTimestamp,        // u64, ns
@@ -60,7 +60,8 @@ constexpr std::uint16_t id_of(GigeComponent component) {
     return component == GigeComponent::kIntensity ? 1 : 6;
 }
 
-// Another camera's chunks in place of the ones above (gige_chunk_layout.h), and their bytes for enabled chunks.
+// Another camera's chunks in place of the ones above (gige_chunk_layout.h), and their bytes for enabled
+// chunks.
 struct GigeChunkLayout;
 std::size_t chunk_layout_bytes(const GigeChunkLayout& layout, std::uint32_t enabled);
 
