@@ -11,6 +11,7 @@
 #include "io/gige/camera_clock.h"
 #include "io/gige/device/gige_device.h"
 #include "io/gige/gige_sockets.h"
+#include "io/gige/stream/gige_chunk_layout.h"
 #include "io/gige/stream/gige_frame_writer.h"
 #include "io/gige/stream/gige_sender.h"
 #include "io/system/monotonic.h"
@@ -58,10 +59,23 @@ Fields fields(GigeConfig& c) {
               "additional names of the trigger input Line0, as [Line1, Line2]: entries of TriggerSource and "
               "LineSelector"),
         section("clock", c.clock, "the device's clock and PTP"),
+        path("genicam_file", c.genicam_file,
+             "GenICam description of another camera, whose face clients see: XML, zip, or the output of "
+             "arv-tool genicam; "
+             "needs face_file"),
+        path("face_file", c.face_file, "table that hilcam-camera-face bind made of genicam_file"),
+        path("registers_file", c.registers_file,
+             "registers that hilcam-camera-face record read from that camera; they replace what the table "
+             "holds"),
     };
 }
 
 void validate(const GigeConfig& c) {
+    if (c.face_file.empty() != c.genicam_file.empty())
+        throw refused_key(c.face_file.empty() ? "genicam_file" : "face_file", "it without the other",
+                          "both, or neither: face_file is made of genicam_file by hilcam-camera-face bind");
+    if (!c.registers_file.empty() && c.face_file.empty())
+        throw refused_key("registers_file", "it without face_file", "all three");
     constexpr std::size_t kMax = 16, kLongest = 32;
     if (c.lines.size() > kMax)
         throw refused_key("lines", std::to_string(c.lines.size()) + " names",
@@ -84,6 +98,7 @@ struct GigeSink::Implementation {
     CameraControl& camera;
     CameraLines* lines;
     FaultBoard& faults;
+    std::shared_ptr<const CameraFaceFiles> face;  // null: hilcam's own
     NetInterface net;
     CameraClock clock;
     GigeRing ring;
@@ -115,11 +130,12 @@ struct GigeSink::Implementation {
     std::atomic<std::uint64_t> foreign_resend_requests{0};
 
     Implementation(const GigeConfig& c, const SinkContext& context, const CameraLimits& limits,
-                   std::size_t payload_bytes)
+                   std::size_t payload_bytes, std::shared_ptr<const CameraFaceFiles> a_face)
         : config(c),
           camera(context.camera),
           lines(context.lines),
           faults(context.faults),
+          face(std::move(a_face)),
           net(find_interface(c.interface)),
           clock(c.clock, net),
           ring(slots_for(camera.settings().frame_rate_hz, payload_bytes), payload_bytes),
@@ -156,11 +172,26 @@ void GigeSink::Implementation::open() {
     sockets = std::make_unique<GigeSockets>(net);
     sender.open(net.address);
     clock.start(net, [this] { return !faults.would_strike(FaultKind::kLinkDown, 0); });
-    device = std::make_unique<GigeDevice>(
-        GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
-                     first_packet_bytes(config, net), 0, config.multipart, config.lines, config.clock.source,
-                     config.clock.enable_ptp},
-        camera, faults, effects(), lines);
+    GigeIdentity identity{config.model,
+                          config.serial,
+                          config.user_name,
+                          net.address,
+                          net.mask,
+                          0,
+                          net.mac,
+                          first_packet_bytes(config, net),
+                          0,
+                          config.multipart,
+                          config.lines,
+                          config.clock.source,
+                          config.clock.enable_ptp};
+    if (face) {
+        identity.face = face;
+        identity.vendor = face->table.vendor;
+        if (!face->table.version.empty()) identity.version = face->table.version;
+        if (!face->table.model.empty()) identity.model = face->table.model;
+    }
+    device = std::make_unique<GigeDevice>(identity, camera, faults, effects(), lines);
     device->set_ports(sender.port(), sockets->message_port());
 }
 
@@ -293,9 +324,14 @@ void GigeSink::Implementation::notify_device(std::int64_t now_ns) {
 
 GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context) {
     const CameraLimits limits = context.camera.limits();
-    const std::size_t bytes =
+    std::size_t bytes =
         max_payload_bytes(limits.width, limits.height, limits.color_pattern, config.multipart);
-    implementation_ = std::make_unique<Implementation>(config, context, limits, bytes);
+    std::shared_ptr<const CameraFaceFiles> face;
+    if (!config.face_file.empty()) {
+        face = read_face(config.genicam_file, config.face_file, config.registers_file);
+        bytes += chunk_layout_of(face->table, limits.color_pattern).bytes(~0u);
+    }
+    implementation_ = std::make_unique<Implementation>(config, context, limits, bytes, std::move(face));
 }
 GigeSink::~GigeSink() { stop(); }
 

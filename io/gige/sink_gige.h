@@ -3,11 +3,12 @@
 // gige_sender.h (stream).
 //
 // The loop writes each frame into a slot of a ring (gige_frame_writer.h), and the sender's thread sends it.
-// The control thread shares nothing with rendering, so it answers as soon as the machine lets it run. Leaders
-// carry mid-exposure on the device's clock (io/ptp/device_clock.h), with 1 tick = 1 ns. With source ptp a
-// third thread listens to PTP masters. A process may have several cameras, each on its own address.
+// The control thread shares nothing with rendering, so it answers as soon as the machine lets it run.
+// Leaders carry mid-exposure on the device's clock (io/ptp/device_clock.h), with 1 tick = 1 ns. With source
+// ptp a third thread listens to PTP masters. A process may have several cameras, each on its own address.
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct GigeConfig {
     double spread_fraction = 0.5;      // share of a frame period over which a frame's packets may be spread
     std::vector<std::string> lines{};  // names of the trigger input besides Line0
     DeviceClockConfig clock{};
+    // Another camera's face (docs/camera_face.md): its description, the table that hilcam-camera-face made
+    // of it, and what was recorded from it; all empty: hilcam's own.
+    std::filesystem::path genicam_file{}, face_file{}, registers_file{};
 };
 Fields fields(GigeConfig& config);
 void validate(const GigeConfig& config);

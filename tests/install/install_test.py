@@ -39,7 +39,8 @@ class Installed(unittest.TestCase):
 
     def test_files_lie_where_gnu_programs_have_them(self):
         for name in ("bin/hilcam", "libexec/hilcam/hilcam-make-spacecraft", "libexec/hilcam/hilcam-plot-tradeoff", "libexec/hilcam/hilcam-read-map",
-                     "libexec/hilcam/hilcam-plot-campaign", "libexec/hilcam/hilcam-plot-latency", "share/hilcam/schema/campaign.schema.json",
+                     "libexec/hilcam/hilcam-plot-campaign", "libexec/hilcam/hilcam-plot-latency", "libexec/hilcam/hilcam-camera-face",
+                     "share/hilcam/camera_face/binding.py", "share/hilcam/schema/campaign.schema.json",
                      "share/doc/hilcam/tools/python/hilcam/client.py",
                      "share/hilcam/scenarios/small.yaml", "share/hilcam/stars/hipparcos.csv", "share/hilcam/maps/earth_albedo.png",
                      "share/hilcam/schema/scenario.schema.json", "share/hilcam/client/hilcam_client.py",

@@ -17,7 +17,7 @@ add_custom_target(pages ALL DEPENDS ${pages}/hilcam.bash)
 # --- the program ---
 install(TARGETS hilcam RUNTIME COMPONENT program)
 install(PROGRAMS tools/hilcam-plot-campaign tools/hilcam-plot-characterise tools/hilcam-plot-latency tools/hilcam-plot-soak
-    tools/hilcam-plot-tradeoff
+    tools/hilcam-plot-tradeoff tools/hilcam-camera-face
     DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT program)
 if(HILCAM_GDAL)
     # A package of its own, as GDAL brings a hundred libraries.
@@ -25,6 +25,9 @@ if(HILCAM_GDAL)
 endif()
 install(DIRECTORY configs/cameras configs/filters configs/maps configs/materials configs/quality configs/schema configs/stars
     DESTINATION ${data} COMPONENT program)
+# The modules of hilcam-camera-face.
+install(DIRECTORY tools/camera_face DESTINATION ${data} COMPONENT program FILES_MATCHING PATTERN "*.py"
+    PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
 install(FILES ${pages}/hilcam.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME hilcam
     COMPONENT program)

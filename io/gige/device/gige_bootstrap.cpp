@@ -45,9 +45,9 @@ void GigeBootstrap::add_identity() {
     r.constant(b::kDeviceMode, kBigEndianTransmitterUtf8);
     r.constant(b::kMacHigh, id.mac >> 32);
     r.constant(b::kMacLow, id.mac & 0xFFFFFFFF);
-    r.text(b::kVendor, 32, "hilcam");
+    r.text(b::kVendor, 32, id.vendor);
     r.text(b::kModel, 32, id.model);
-    r.text(b::kDeviceVersion, 32, "1.0");
+    r.text(b::kDeviceVersion, 32, id.version);
     r.text(b::kInfo, 48, "emulated spacecraft camera");
     r.text(b::kSerial, 16, id.serial);
     r.text(b::kUserName, 16, id.user_name, true);
@@ -120,6 +120,15 @@ void GigeBootstrap::add_description(std::span<const std::uint8_t> xml, std::span
     url(b::kSecondXmlUrl, "xml", kXmlAddress, xml.size());
     r.memory(kZipAddress, zip);
     r.memory(kXmlAddress, xml);
+}
+
+void GigeBootstrap::add_description(const std::string& name, std::span<const std::uint8_t> zip,
+                                    std::uint32_t place) {
+    char text[160];
+    std::snprintf(text, sizeof text, "Local:%.64s.zip;%X;%zX", name.c_str(), place, zip.size());
+    core_.registers.text(b::kXmlUrl, 512, text);
+    core_.registers.text(b::kSecondXmlUrl, 512, "");
+    core_.registers.memory(place, zip);
 }
 
 void GigeBootstrap::reset() { write_gvcp_config(0); }

@@ -13,6 +13,8 @@ class GigeBootstrap {
     // Adds the description, plain and zipped; both must outlive the register file. Its URLs contain the
     // sizes.
     void add_description(std::span<const std::uint8_t> xml, std::span<const std::uint8_t> zip);
+    // Adds another camera's description, zipped alone.
+    void add_description(const std::string& name, std::span<const std::uint8_t> zip, std::uint32_t place);
     void reset();
     // Switches on what is on after power-up.
     void power_up();

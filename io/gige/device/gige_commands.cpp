@@ -152,7 +152,7 @@ GigeDevice::Answer GigeDevice::read_registers(std::span<const std::uint8_t> payl
     for (std::size_t at = 0; at < payload.size(); at += 4) {
         const std::uint32_t address = in.u32();
         if (!parts_->access.may_read(core.from, address, 4)) return {Status::kAccessDenied, at};
-        const Status status = core.registers.read(address, out.subspan(at, 4));
+        const Status status = parts_->read(address, out.subspan(at, 4));
         if (status != Status::kSuccess) return {status, at};
     }
     return {Status::kSuccess, payload.size()};
@@ -165,7 +165,7 @@ GigeDevice::Answer GigeDevice::read_memory(std::span<const std::uint8_t> payload
     if (!parts_->access.may_read(parts_->core.from, range->address, range->bytes))
         return {Status::kAccessDenied};
     ByteWriter(out).u32(range->address);
-    const Status status = parts_->core.registers.read(range->address, out.subspan(4, range->bytes));
+    const Status status = parts_->read(range->address, out.subspan(4, range->bytes));
     if (status != Status::kSuccess) return {status};
     return {status, std::size_t{4} + range->bytes};
 }
@@ -180,7 +180,7 @@ GigeDevice::Answer GigeDevice::write_registers(std::span<const std::uint8_t> pay
         const std::uint32_t address = ByteReader(payload.subspan(at)).u32();
         std::size_t bytes = 0;
         status = parts_->access.may_write(core.from, address)
-                     ? core.registers.write(address, payload.subspan(at + 4, 4), core.locked(), bytes)
+                     ? parts_->write(address, payload.subspan(at + 4, 4), bytes)
                      : Status::kAccessDenied;
         if (status == Status::kSuccess) ++done;
     }
@@ -199,9 +199,8 @@ GigeDevice::Answer GigeDevice::write_memory(std::span<const std::uint8_t> payloa
     Status status = fits ? Status::kSuccess : Status::kInvalidParameter;
     std::size_t done = 0;
     if (status == Status::kSuccess)
-        status = parts_->access.may_write(core.from, address)
-                     ? core.registers.write(address, data, core.locked(), done)
-                     : Status::kAccessDenied;
+        status = parts_->access.may_write(core.from, address) ? parts_->write(address, data, done)
+                                                              : Status::kAccessDenied;
     ByteWriter(out).u16(0).u16(done);
     return {status, 4};
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "io/contract/fault.h"
 #include "io/gige/device/gige_register_file.h"
 #include "io/gige/device/gvcp.h"
+#include "io/gige/face/face_files.h"
 #include "io/gige/stream/gige_stream.h"
 #include "io/lines/camera_lines.h"
 #include "io/ptp/device_clock.h"
@@ -30,6 +32,9 @@ struct GigeIdentity {
     std::vector<std::string> more_lines{};  // names of the trigger input besides Line0
     ClockSource clock_source = ClockSource::kTai;
     bool ptp_at_power_up = false;  // PtpEnable is on after power-up
+    std::string vendor = "hilcam", version = "1.0";
+    std::shared_ptr<const CameraFaceFiles>
+        face{};  // another camera's description and registers; null: hilcam's own
 };
 
 // Counters of the stream side, shown as features.

@@ -54,11 +54,14 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
                     trigger.rearm();
                     core.publish_stream();
                 }),
-      xml(padded(
-          genicam_xml(gige_features(core.limits, id.multipart, id.more_lines, core.lines.plan()), id.model))),
-      zip(zip_of("hilcam.xml", xml)) {
-    bootstrap.add_description(text_bytes(xml), zip);
+      xml(padded(id.face
+                     ? id.face->xml
+                     : genicam_xml(gige_features(core.limits, id.multipart, id.more_lines, core.lines.plan()),
+                                   id.model))),
+      zip(zip_of(id.face ? "camera.xml" : "hilcam.xml", id.face ? id.face->xml : xml)) {
+    if (!id.face) bootstrap.add_description(text_bytes(xml), zip);
     add_device_registers();
+    if (id.face) put_on_face(*id.face);
     acquisition.on_end([this] { trigger.rearm(); });
     core.publish_stream();
     bootstrap.power_up();
@@ -82,6 +85,16 @@ void GigeDevice::Parts::add_device_registers() {
         address += 8;
     }
     r.number64(address, [this] { return core.statistics.events_dropped + core.events_lost; });
+}
+
+void GigeDevice::Parts::put_on_face(const CameraFaceFiles& files) {
+    const std::uint32_t place = free_place(files.table, zip.size());
+    bootstrap.add_description("camera", zip, place);
+    features = std::make_unique<FeatureTable>(
+        gige_features(core.limits, core.identity.multipart, core.identity.more_lines, core.lines.plan()));
+    face = std::make_unique<CameraFace>(files, core.registers, *features, place, zip.size());
+    chunk_layout = chunk_layout_of(files.table, core.limits.color_pattern);
+    if (!chunk_layout.parts.empty()) core.stream.chunk_layout = &chunk_layout;
 }
 
 void GigeDevice::Parts::left() {
@@ -171,6 +184,7 @@ void GigeDevice::reset() {
     my.user_sets.reset();
     my.messages.reset();
     my.answers.forget();
+    if (my.face) my.face->reset();
     my.bootstrap.power_up();
     if (my.core.effects.reset) my.core.effects.reset();
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/gige/device/camera_face.h"
 #include "io/gige/device/gige_access.h"
 #include "io/gige/device/gige_acquisition.h"
 #include "io/gige/device/gige_actions.h"
@@ -19,6 +20,7 @@
 #include "io/gige/device/gige_transport.h"
 #include "io/gige/device/gige_trigger.h"
 #include "io/gige/device/gige_user_sets.h"
+#include "io/gige/stream/gige_chunk_layout.h"
 
 namespace hilcam {
 
@@ -46,6 +48,10 @@ struct GigeDevice::Parts {
     GigeAnswers answers;
     std::string xml;
     std::vector<std::uint8_t> zip;
+    // Another camera's features and registers, if the camera has its face.
+    std::unique_ptr<FeatureTable> features;
+    std::unique_ptr<CameraFace> face;
+    GigeChunkLayout chunk_layout;
 
     std::int64_t ticked_ns = 0;
     bool reset_wanted = false;
@@ -59,6 +65,15 @@ struct GigeDevice::Parts {
     Parts(const GigeIdentity& id, CameraControl& camera, FaultBoard& board, GigeEffects effects,
           CameraLines* lines);
     void add_device_registers();
+    void put_on_face(const CameraFaceFiles& files);
+    // Access to what clients see: the face's registers if there is one, else hilcam's own.
+    gvcp::Status read(std::uint32_t address, std::span<std::uint8_t> out) {
+        return face ? face->read(address, out) : core.registers.read(address, out);
+    }
+    gvcp::Status write(std::uint32_t address, std::span<const std::uint8_t> data, std::size_t& done) {
+        return face ? face->write(address, data, core.locked(), done)
+                    : core.registers.write(address, data, core.locked(), done);
+    }
     void left();  // the controller is gone
     // Returns a request's index for faults, from its id and its number of attempts.
     std::uint64_t fault_index(std::uint16_t request_id);

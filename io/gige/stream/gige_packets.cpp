@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/gige/stream/gige_chunk_layout.h"
 #include "io/system/bytes.h"
 
 namespace hilcam {
@@ -165,7 +166,11 @@ void write_gige_payload(const DnImage& frame, const FrameRecord& record, const G
     if (s.confidence_bytes() > 0)
         write_confidence(frame, crop, record.bits, out.subspan(s.image_bytes(), s.confidence_bytes()));
     if (!s.chunk_mode) return;
-    ByteWriter chunks(out.subspan(s.image_bytes() + s.confidence_bytes(), s.chunk_data_bytes()));
+    const auto behind = out.subspan(s.image_bytes() + s.confidence_bytes(), s.chunk_data_bytes());
+    if (s.chunk_layout)
+        return write_chunk_layout(*s.chunk_layout, record, s, seen, timestamp_ns,
+                                  s.image_bytes() + s.confidence_bytes(), behind);
+    ByteWriter chunks(behind);
     chunks.u32(kImageChunkId).u32(s.image_bytes() + s.confidence_bytes());
     for (int i = 0; i < kChunks; ++i) {
         if ((s.chunks >> i & 1u) == 0) continue;

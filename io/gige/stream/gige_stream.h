@@ -16,8 +16,8 @@ struct Endpoint {
     friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
 
-// Chunks that may follow a frame's pixels; bits of GigeStreamState::chunks. A chunk's id is kChunkIdBase plus
-// its value. Numbers are big-endian, floats IEEE 754.
+// Chunks that may follow a frame's pixels; bits of GigeStreamState::chunks. A chunk's id is kChunkIdBase
+// plus its value. Numbers are big-endian, floats IEEE 754.
 enum class Chunk : std::uint8_t {
     kFrameId,          // u64
     kTimestamp,        // u64, ns
@@ -60,6 +60,11 @@ constexpr std::uint16_t id_of(GigeComponent component) {
     return component == GigeComponent::kIntensity ? 1 : 6;
 }
 
+// Another camera's chunks in place of the ones above (gige_chunk_layout.h), and their bytes for enabled
+// chunks.
+struct GigeChunkLayout;
+std::size_t chunk_layout_bytes(const GigeChunkLayout& layout, std::uint32_t enabled);
+
 struct GigeStreamState {
     bool open = false;               // a destination is set
     bool acquiring = false;          // between AcquisitionStart and Stop
@@ -78,7 +83,8 @@ struct GigeStreamState {
     std::uint32_t width = 0, height = 0, offset_x = 0, offset_y = 0;
     std::uint32_t binning_x = 1, binning_y = 1;
     bool chunk_mode = false;
-    std::uint32_t chunks = 0;  // bits by Chunk, when chunk_mode is on
+    std::uint32_t chunks = 0;                       // bits by Chunk, when chunk_mode is on
+    const GigeChunkLayout* chunk_layout = nullptr;  // null: hilcam's own chunks; the device owns it
     // Components of a multipart stream, at least one.
     std::uint32_t components = bit_of(GigeComponent::kIntensity);
 
@@ -96,6 +102,7 @@ struct GigeStreamState {
     // Includes the 8 bytes of id and length behind each chunk and behind the image.
     std::size_t chunk_data_bytes() const {
         if (!chunk_mode) return 0;
+        if (chunk_layout) return chunk_layout_bytes(*chunk_layout, chunks);
         std::size_t bytes = 8;
         for (int i = 0; i < kChunks; ++i)
             if (chunks >> i & 1u) bytes += 8 + chunk_bytes(static_cast<Chunk>(i));

@@ -91,7 +91,7 @@ struct GigeBench {
 
     explicit GigeBench(const CameraLimits* limits = nullptr, std::vector<std::string> more_lines = {},
                        ClockSource clock_source = ClockSource::kTai, bool ptp_at_power_up = false,
-                       const LinePlan& plan = {})
+                       const LinePlan& plan = {}, std::shared_ptr<const CameraFaceFiles> face = {})
         : camera(limits ? with(*limits) : PlainCamera()),
           lines(camera, plan),
           source(clock_source),
@@ -104,7 +104,8 @@ struct GigeBench {
                   .multipart = true,
                   .more_lines = std::move(more_lines),
                   .clock_source = clock_source,
-                  .ptp_at_power_up = ptp_at_power_up},
+                  .ptp_at_power_up = ptp_at_power_up,
+                  .face = std::move(face)},
                  camera, faults, effects(), &lines) {
         device.tick(now_ns);
     }

@@ -1,0 +1,1 @@
+"""A real camera's GenICam description, evaluated (hilcam-camera-face). Start with binding.py."""

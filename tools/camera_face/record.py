@@ -1,0 +1,102 @@
+"""Reads every register of a real camera into a registers file, with Aravis."""
+import pathlib
+import sys
+
+from .binding import REFUSED
+from .description import REGISTERS, Description, DescriptionError
+from .evaluator import Evaluator
+from .registers import Memory, write_file
+
+PIECE = 512
+MOST_STATES = 64
+
+
+class DeviceMemory(Memory):
+    """Reads from the camera, each register once; keeps what came. It writes nothing to the camera."""
+
+    def __init__(self, device):
+        super().__init__()
+        self.device, self.failed = device, {}
+        self.came = set()
+
+    def read(self, address, count):
+        begin, end = address & ~3, address + count + 3 & ~3
+        missing = [word for word in range(begin >> 2, end >> 2) if word not in self.came and word not in self.failed]
+        if missing:
+            for at in range(begin, end, PIECE):
+                self._fetch(at, min(PIECE, end - at))
+        return super().read(address, count)
+
+    def _fetch(self, address, count):
+        words = range(address >> 2, address + count >> 2)
+        try:
+            if count == 4:
+                data = self.device.read_register(address).to_bytes(4, "big")
+            else:
+                data = bytes(self.device.read_memory(address, count))
+        except Exception as error:  # GLib.Error of PyGObject
+            for word in words:
+                self.failed[word] = str(error).splitlines()[0]
+            return
+        super().write(address, data)
+        self.came.update(words)
+
+
+def open_device(address):
+    try:
+        import gi
+        gi.require_version("Aravis", "0.8")
+        from gi.repository import Aravis, GLib
+    except (ImportError, ValueError):
+        sys.exit("hilcam-camera-face: Aravis is missing; install gir1.2-aravis-0.8 and python3-gi, and use /usr/bin/python3")
+    try:
+        return Aravis.Camera.new(address).get_device()
+    except GLib.Error as error:
+        raise DescriptionError(f"{address}: no camera: {error.message}") from None
+
+
+def record(address, out):
+    """Writes OUT.xml and OUT. Nothing in the camera changes: selectors are walked only where they are the client's own."""
+    device = open_device(address)
+    xml, size = device.get_genicam_xml()
+    xml = (xml if isinstance(xml, str) else bytes(xml).decode("utf-8", "replace")).encode()[:size or None]
+    xml_file = pathlib.Path(out).with_suffix(".xml")
+    xml_file.write_bytes(xml)
+    description = Description(xml_file)
+    memory = DeviceMemory(device)
+    evaluator = Evaluator(description, memory)
+    names = [name for name, node in description.nodes.items() if node.tag in REGISTERS and description.on_device(node)]
+    for name in names:
+        read_register(evaluator, name)
+        for selector, values in own_selectors(evaluator, name):
+            for value in values:
+                evaluator.set(selector, value)
+                read_register(evaluator, name)
+            evaluator.local.pop(selector, None)
+            evaluator._changed(("", 0, selector))
+    rows = memory.runs(memory.came)
+    write_file(out, rows, f"{description.vendor} {description.model}, {len(memory.came)} words")
+    return len(names), len(memory.came), memory.failed, xml_file
+
+
+def read_register(evaluator, name):
+    try:
+        if evaluator.node(name).text("AccessMode") != "WO":
+            evaluator.memory.read(evaluator.address(name), evaluator.length(name))
+    except REFUSED:
+        pass
+
+
+def own_selectors(evaluator, name):
+    """Returns (selector, its values) for what moves a register's address and is no register itself."""
+    node = evaluator.node(name)
+    below = [("value", text) for text in node.texts("pAddress") + node.texts("pIndex")]
+    for _, length, used in evaluator.uses(*below):
+        if length or not used:
+            continue
+        selector = evaluator.nodes[used]
+        entries = next((e.entries for e in evaluator.nodes.values() if e.entries and e.text("pValue") == used), selector.entries)
+        if entries:
+            yield used, [entry.number("Value") for entry in entries][:MOST_STATES]
+        elif selector.number("Max") is not None and selector.number("Max") - selector.number("Min", 0) < MOST_STATES:
+            yield used, range(selector.number("Min", 0), selector.number("Max") + 1)
