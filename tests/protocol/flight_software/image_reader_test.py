@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What hilcam sends as image packets, read by the header that flight software copies (tools/image_packets): the pixels of its files.
 
-    image_packets_test.py HILCAM IMAGE_PACKETS_READER
+    image_reader_test.py HILCAM IMAGE_PACKETS_READER
 """
 import os
 import pathlib
