@@ -14,7 +14,10 @@ BEGIN, END = "<!-- features -->\n", "\n<!-- end of features -->\n"
 TYPES = {"Integer": "integer", "Float": "float", "Enumeration": "enumeration", "Boolean": "boolean", "Command": "command", "StringReg": "string"}
 # Names that the Standard Features Naming Convention does not have.
 LOCKS = {"TLParamsLocked": "; locked while streaming", "ExposureAutoReg": "; locked while ExposureAuto is on",
-         "AcquisitionFrameRateFixed": "; locked unless AcquisitionFrameRateEnable"}
+         "AcquisitionFrameRateFixed": "; locked unless AcquisitionFrameRateEnable",
+         "SequencerIsNotConfigured": "; locked unless configuring",
+         "SequencerConfigurationModeReg": "; locked while configuring",
+         "SequencerModeReg": "; locked while SequencerMode"}
 MOST_ENTRIES = 20  # longer lists are left to the manual
 OWN_CATEGORIES = {"StatisticsControl", "FaultControl"}
 OWN = {"ChunkPoseSequence", "ChunkPoseTime", "ChunkExposureMid", "ChunkTriggerSequence", "ChunkFaults",

@@ -87,6 +87,12 @@ void look_at_interface(const BenchNeeds::Gige& need, const InterfaceFacts& i, co
         out.good("gige port", "UDP 3956 is free");
     else
         out.problem("gige port", i.port_fault, "one GigE Vision device fits on an address");
+    if (need.ptp && i.ptp_fault.empty())
+        out.good("ptp", *need.ptp == PtpTransport::kUdp
+                            ? "UDP 319 and 320 on " + i.name + " can be opened"
+                            : "Ethernet messages on " + i.name + " can be received");
+    else if (need.ptp)
+        out.problem("ptp", i.ptp_fault, "without it the camera goes on with PtpStatus Faulty");
     // A client on this machine needs buffer space for two frames; the kernel counts some 768 bytes more than
     // each packet has.
     const double each = static_cast<double>(std::max<std::int64_t>(1, need.packet_bytes));
@@ -230,6 +236,18 @@ void look_at_time(const MachineFacts& m, Findings& out) {
                  : fmt::format("{}", fmt::join(m.pps, ", ")));
 }
 
+void look_at_wires(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
+    for (std::size_t i = 0; i < n.wires.size() && i < m.wire_faults.size(); ++i) {
+        const BenchNeeds::Wire& wire = n.wires[i];
+        const std::string what =
+            wire.pps.empty() ? fmt::format("{} pin {}", wire.pin.gpio, wire.pin.pin) : wire.pps;
+        if (m.wire_faults[i].empty())
+            out.good("line", what);
+        else
+            out.problem("line", m.wire_faults[i], "set " + wire.key + " to one that is there");
+    }
+}
+
 void look_at_cache(const MachineFacts& m, Findings& out) {
     if (m.cache.empty())
         return out.note("cache", "no folder: slow preparations are repeated at each start",
@@ -257,8 +275,10 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
         const OutputsConfig& o = s.outputs;
         const auto [width, height] = frame_size(s.camera);
         const double frame_bytes = static_cast<double>(width) * height * (s.camera.frame_bits() > 8 ? 2 : 1);
-        if (const auto* gige = o.find<GigeConfig>())
+        if (const auto* gige = o.find<GigeConfig>()) {
             needs.gige.push_back({gige->interface, gige->packet_bytes, frame_bytes});
+            if (gige->clock.source == ClockSource::kPtp) needs.gige.back().ptp = gige->clock.transport;
+        }
         if (const auto* v4l2 = o.find<V4l2Config>())
             needs.v4l2.push_back(
                 {v4l2->device, v4l2->format == V4l2Format::kBayer10 || v4l2->format == V4l2Format::kBayer12});
@@ -273,6 +293,14 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
     if (c.has_tcp) port("commands.tcp.port", c.tcp.address, c.tcp.port, true);
     if (c.has_ip42 && c.ip42.role == Ip42Role::kServer)
         port("commands.ip42.port", c.ip42.address, c.ip42.port, true);
+    for (std::size_t i = 0; i < scenario.lines.inputs.size(); ++i) {
+        const LineInputConfig& input = scenario.lines.inputs[i];
+        if (!input.pin.gpio.empty() || !input.pps.empty())
+            needs.wires.push_back({fmt::format("lines.inputs.{}", i), input.pin, input.pps});
+    }
+    for (std::size_t i = 0; i < scenario.lines.outputs.size(); ++i)
+        if (const PinConfig& pin = scenario.lines.outputs[i].pin; !pin.gpio.empty())
+            needs.wires.push_back({fmt::format("lines.outputs.{}", i), pin});
     if (const auto& udp = scenario.lines.udp) port("lines.udp.port", udp->address, udp->port, false);
     return needs;
 }
@@ -284,6 +312,7 @@ std::vector<Finding> diagnose(const BenchNeeds& needs, const MachineFacts& facts
     look_at_network(needs, facts, out);
     look_at_v4l2(needs, facts, out);
     look_at_usb(needs, facts, out);
+    look_at_wires(needs, facts, out);
     look_at_cache(facts, out);
     look_at_time(facts, out);
     return out.take();

@@ -3,6 +3,7 @@
 // difference. Pure functions; doctor_facts.h looks at the machine.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,13 @@ struct BenchNeeds {
         std::string interface;
         std::int64_t packet_bytes = 0;
         double frame_bytes = 0;
+        std::optional<PtpTransport> ptp{};  // its clock follows a PTP master
+    };
+    // A pin or a pulse per second of the machine, with what it is for: "lines.inputs.0".
+    struct Wire {
+        std::string key;
+        PinConfig pin{};
+        std::string pps{};  // empty: the pin
     };
     struct V4l2 {
         std::string device;
@@ -36,6 +44,7 @@ struct BenchNeeds {
     std::vector<V4l2> v4l2;
     std::vector<Uvc> uvc;
     std::vector<Port> ports;
+    std::vector<Wire> wires;
     std::uint64_t loop_priority = 0;  // loop.priority
 };
 BenchNeeds needs_of(const ScenarioConfig& scenario);
@@ -55,7 +64,8 @@ struct InterfaceFacts {
     std::string name;
     std::uint32_t mtu_bytes = 0;
     bool multicast = true;
-    std::string port_fault;  // why UDP port 3956 cannot be used
+    std::string port_fault;   // why UDP port 3956 cannot be used
+    std::string ptp_fault{};  // why PTP cannot be received; empty: it can, or it is not needed
 };
 
 struct MachineFacts {
@@ -71,6 +81,7 @@ struct MachineFacts {
     std::uint64_t receive_buffer_bytes = 0, send_buffer_bytes = 0;  // net.core.rmem_max, wmem_max
     std::vector<InterfaceFacts> interfaces;                         // one for each entry of BenchNeeds::gige
     std::vector<std::string> port_faults;  // one for each entry of BenchNeeds::ports; empty: the port is free
+    std::vector<std::string> wire_faults;  // one for each entry of BenchNeeds::wires; empty: it is there
     bool aravis_tools = false;
     // V4L2.
     LoopbackModule loopback;

@@ -17,6 +17,9 @@
 
 #include "io/cache/cache.h"
 #include "io/cache/cache_room.h"
+#include "io/lines/gpio_pin.h"
+#include "io/lines/pps_source.h"
+#include "io/ptp/ptp_sockets.h"
 #include "io/system/fd.h"
 #include "io/system/net_interface.h"
 #include "io/uvc/uvc_gadget.h"
@@ -70,10 +73,20 @@ std::string port_fault(const BenchNeeds::Port& port) {
     return "TCP " + port.endpoint + ": " + std::strerror(errno);
 }
 
-InterfaceFacts look_at_interface(const std::string& name_or_address) {
+// Returns why a PTP port cannot be opened, or an empty text.
+std::string ptp_fault(const NetInterface& interface, PtpTransport transport) {
+    try {
+        PtpSockets(interface, transport);
+        return "";
+    } catch (const DeviceError& error) {
+        return error.what();
+    }
+}
+
+InterfaceFacts look_at_interface(const BenchNeeds::Gige& need) {
     InterfaceFacts facts;
     try {
-        const NetInterface interface = find_interface(name_or_address);
+        const NetInterface interface = find_interface(need.interface);
         facts.name = interface.name;
         facts.mtu_bytes = interface.mtu_bytes;
         std::ifstream in("/sys/class/net/" + interface.name + "/flags");
@@ -81,6 +94,7 @@ InterfaceFacts look_at_interface(const std::string& name_or_address) {
         in >> std::hex >> flags;
         facts.multicast = (flags & IFF_MULTICAST) != 0;
         facts.port_fault = udp_fault(interface.address, kGvcpPort);
+        if (need.ptp) facts.ptp_fault = ptp_fault(interface, *need.ptp);
     } catch (const InputError& error) {
         facts.fault = error.what();
     }
@@ -102,8 +116,10 @@ void look_at_processor(MachineFacts& m) {
 void look_at_network(const BenchNeeds& needs, MachineFacts& m) {
     m.receive_buffer_bytes = number_in("/proc/sys/net/core/rmem_max");
     m.send_buffer_bytes = number_in("/proc/sys/net/core/wmem_max");
-    for (const BenchNeeds::Gige& need : needs.gige) m.interfaces.push_back(look_at_interface(need.interface));
+    for (const BenchNeeds::Gige& need : needs.gige) m.interfaces.push_back(look_at_interface(need));
     for (const BenchNeeds::Port& port : needs.ports) m.port_faults.push_back(port_fault(port));
+    for (const BenchNeeds::Wire& wire : needs.wires)
+        m.wire_faults.push_back(wire.pps.empty() ? fault_of(wire.pin) : fault_of_pps(wire.pps));
     m.aravis_tools = fs::exists("/usr/bin/arv-camera-test-0.8") || fs::exists("/usr/bin/arv-tool-0.8");
 }
 

@@ -52,6 +52,7 @@ void FramePlanner::take_settings(const FrameStarter::Start& start, FrameSlot& sl
     use.test_pattern = s.test_pattern;
     use.reverse_x = s.reverse_x, use.reverse_y = s.reverse_y;
     use.trigger_sequence = start.trigger_sequence;
+    use.sequencer_set = start.sequencer_set;
     use.quality_level = choose_level(start, slot, use.id);
     faults_.begin(use.id);
     use.faults = frame_faults(faults_, use.id);

@@ -34,6 +34,7 @@ struct FrameUse {
     std::int64_t binning_x = 1, binning_y = 1;
     std::uint64_t faults = 0;  // bits as in FrameRecord
     ImageFaults image;
+    std::int64_t sequencer_set = -1;  // the sequencer's set; -1: it was off
 
     friend bool operator==(const FrameUse&, const FrameUse&) = default;
 };

@@ -58,6 +58,7 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
         if (poses_) start.silence = poses_->at(clock_.simulated_of_camera(start.camera_ns));
         // Poses became stale while the last stretch was slept through.
         if (start.silence.stale && !lockstep_ && poses_->rules().when_stale == WhenStale::kStop) continue;
+        report_begun(start);
         return true;
     }
     settings_.close();
@@ -66,7 +67,21 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
 }
 
 double FrameStarter::exposure_of(const CameraSettings& s) const {
+    if (const std::optional<double> of_set_s = settings_.sequencer_in_loop().exposure_s()) return *of_set_s;
     return s.automatic_exposure && own_exposure_s_ > 0 ? own_exposure_s_ : s.exposure_s;
+}
+
+// Chooses the set of a frame whose begin is known.
+void FrameStarter::use_sequencer(Start& start) {
+    start.sequencer_set =
+        settings_.sequencer_in_loop().begin(clock_.monotonic_of_camera(start.camera_ns), start.settings);
+}
+
+// In lockstep frames follow one another, so each exposure is over when the next begins.
+void FrameStarter::report_begun(const Start& start) {
+    const std::int64_t length_ns = lockstep_ ? 0 : to_ns(timing_.end_s(start.exposure_s));
+    settings_.sequencer_in_loop().begun(start.begin_ns,
+                                        clock_.monotonic_of_camera(start.camera_ns + length_ns));
 }
 
 bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& start) {
@@ -95,6 +110,7 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
     } else {
         start.camera_ns = arrived_ns;
     }
+    use_sequencer(start);
     start.exposure_s = exposure_of(start.settings);
     start.period_ns = to_ns(timing_.period_s(start.settings.frame_rate_hz, start.exposure_s));
     return true;
@@ -141,9 +157,10 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     if (!lockstep_ && !wait_for_order(stopping)) return false;
     const SettingsHistory& history = settings_.history_in_loop();
     start.settings = lockstep_ ? history.newest() : history.at(next_ns_);
+    start.camera_ns = next_ns_;
+    use_sequencer(start);
     const bool by_width = order_.exposure_s > 0;
     start.exposure_s = by_width ? order_.exposure_s : exposure_of(start.settings);
-    start.camera_ns = next_ns_;
     const std::int64_t period_ns = to_ns(timing_.period_s(start.settings.frame_rate_hz, start.exposure_s));
     if (lockstep_) {
         last_mid_ = clock_.simulated_of_camera(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));

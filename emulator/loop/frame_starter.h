@@ -21,7 +21,8 @@
 // well.
 //
 // A frame uses the settings of the instant at which its exposure begins, even if it is late: later changes
-// apply to the next frame (settings_history.h). In lockstep it uses the newest settings.
+// apply to the next frame (settings_history.h). In lockstep it uses the newest settings. While the sequencer
+// is on (io/lines/sequencer.h), it uses the set that is active then.
 
 #include <atomic>
 #include <cstdint>
@@ -59,6 +60,7 @@ class FrameStarter {
         bool late = false;           // true: a triggered frame that began more than a period after its time
         std::uint32_t trigger_sequence = 0;
         bool ends_order = false;
+        std::int64_t sequencer_set = Sequencer::kNone;
         PoseWatch::Silence silence;  // state of the poses at its begin
     };
     // Waits for the next frame's begin. own_exposure_s: result of automatic exposure; 0: none yet. Returns
@@ -80,6 +82,8 @@ class FrameStarter {
     bool sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const;
     std::int64_t camera_now() const { return clock_.camera_at(monotonic_ns()); }
     double exposure_of(const CameraSettings& settings) const;
+    void use_sequencer(Start& start);
+    void report_begun(const Start& start);
 
     LiveSettings& settings_;
     SimulatedClock& clock_;

@@ -41,6 +41,7 @@ CameraLimits limits_of(const CameraModel& c, const LiveSettings::Mode& mode) {
     limits.gain_is_own = !c.sequence.empty();
     limits.frame_rate_is_own = timing.is_fixed();
     limits.has_automatic_exposure = !limits.exposure_is_own;
+    limits.has_sequencer = !limits.exposure_is_own && !limits.gain_is_own;
     if (timing.is_fixed()) {
         limits.min_exposure_s = limits.max_exposure_s = timing.exposure_s(c.exposure_s);
         limits.min_frame_rate_hz = limits.max_frame_rate_hz = 1 / timing.period_s(0, 0);
@@ -86,7 +87,7 @@ CameraSettings LiveSettings::settings() const {
 
 double LiveSettings::resulting_frame_rate_hz() const {
     const CameraSettings now = settings();
-    return 1 / timing_.period_s(now.frame_rate_hz, now.exposure_s);
+    return 1 / timing_.period_s(now.frame_rate_hz, std::max(now.exposure_s, sequencer_.longest_exposure_s()));
 }
 
 // Called under the lock.
@@ -95,18 +96,26 @@ double LiveSettings::exposure_now_s() const {
     return own ? own_exposure_s_.load(std::memory_order_relaxed) : settings_.exposure_s;
 }
 
+// Returns the longest exposure that the next frame may have: the loop chooses its set when it begins. Called
+// under the lock.
+double LiveSettings::longest_exposure_s() const {
+    const double of_sets_s = sequencer_.longest_exposure_s();
+    return of_sets_s > 0 ? of_sets_s : exposure_now_s();
+}
+
 bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const {
     const CameraLimits& l = limits_;
     if (c.exposure_s && (l.exposure_is_own || w.automatic_exposure)) return false;
     if (c.gain_db && l.gain_is_own) return false;
     if (c.frame_rate_hz && l.frame_rate_is_own) return false;
-    if (w.automatic_exposure && !l.has_automatic_exposure) return false;
+    if (w.automatic_exposure && (!l.has_automatic_exposure || sequencer_.on())) return false;
     if ((w.reverse_x || w.reverse_y) && !l.reversible) return false;
     if (l.lockstep && !w.triggered) return false;
     if (w.exposure_mode == ExposureMode::kTriggerWidth &&
         (!l.has_trigger_width() || w.automatic_exposure ||
-         w.trigger_activation == TriggerActivation::kAnyEdge))
+         w.trigger_activation == TriggerActivation::kAnyEdge || is_level(w.trigger_activation)))
         return false;
+    if (is_level(w.trigger_activation) && !l.has_trigger_levels()) return false;
     if (w.trigger_overlap == TriggerOverlap::kOff && !l.can_wait_for_readout()) return false;
     if (w.trigger_divider < 1 || w.trigger_divider > l.max_trigger_divider) return false;
     const auto binning_fits = [&](const std::optional<std::int64_t>& b) {
@@ -190,9 +199,11 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     return TriggerResult::kTaken;
 }
 
-// The exposure of a pulse is over, and that of a trigger in simulated time depends on the clock.
+// The exposure of a pulse is over, that of a trigger in simulated time depends on the clock, and a
+// sequencer's on the set that is active then.
 void LiveSettings::tell_exposure(const WaitingOrder& order, std::int64_t now_ns) const {
     if (limits_.lockstep || order.frames != 1 || order.exposure_s > 0 || order.at_simulated.ns != 0) return;
+    if (sequencer_.on()) return;
     const std::int64_t begin_ns = camera_time_of(order, now_ns) + order.delay_ns;
     const std::int64_t end_ns = begin_ns + to_ns(timing_.end_s(exposure_now_s()));
     exposes_(clock_->monotonic_of_camera(begin_ns), clock_->monotonic_of_camera(end_ns));
@@ -248,7 +259,7 @@ std::int64_t LiveSettings::ready_ns(std::uint64_t orders, std::int64_t now_ns) c
     if (dropped_below_.load(std::memory_order_relaxed) == orders)
         return frame_ready_ns_.load(std::memory_order_relaxed);
     if (none_waits) return order_ready_ns_.load(std::memory_order_relaxed);
-    const double exposure_s = newest_order_.exposure_s > 0 ? newest_order_.exposure_s : exposure_now_s();
+    const double exposure_s = newest_order_.exposure_s > 0 ? newest_order_.exposure_s : longest_exposure_s();
     const std::int64_t period_ns = to_ns(timing_.period_s(settings_.frame_rate_hz, exposure_s));
     return camera_time_of(newest_order_, now_ns) + newest_order_.delay_ns +
            (newest_order_.frames - 1) * period_ns + shortest_period_ns(settings_.trigger_overlap, exposure_s);

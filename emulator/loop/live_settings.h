@@ -14,6 +14,7 @@
 #include "emulator/world/clock.h"
 #include "emulator/world/pose_watch.h"
 #include "io/contract/camera_control.h"
+#include "io/lines/sequencer.h"
 #include "io/system/timed_semaphore.h"
 #include "render/vocabulary/latest.h"
 #include "render/vocabulary/time.h"
@@ -38,6 +39,7 @@ class LiveSettings : public CameraControl {
     CameraSettings settings() const override;
     double resulting_frame_rate_hz() const override;
     CameraLimits limits() const override { return limits_; }
+    Sequencer* sequencer() override { return limits_.has_sequencer ? &sequencer_ : nullptr; }
     // Changes settings from now on, or from an instant of the camera's time (clock.h), past or near future.
     bool change(const SettingsChange& change) override;
     bool change(const SettingsChange& change, std::int64_t from_camera_ns);
@@ -83,6 +85,7 @@ class LiveSettings : public CameraControl {
     // Returns the settings over time. In lockstep, frames use the newest, because orders and changes come in
     // sequence.
     const SettingsHistory& history_in_loop() { return latest_.read(); }
+    Sequencer& sequencer_in_loop() { return sequencer_; }
     // Takes the next trigger in order of arrival; false when there is none.
     struct WaitingOrder : TriggerOrder {
         std::int64_t delay_ns = 0;  // delay after its time, in the camera's time
@@ -142,6 +145,7 @@ class LiveSettings : public CameraControl {
     static constexpr std::int64_t kLongestWait_ns = 50'000'000;
 
     double exposure_now_s() const;
+    double longest_exposure_s() const;
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
     TriggerResult take_order(const TriggerOrder& asked);
     double exposure_of(const TriggerOrder& order) const;
@@ -168,6 +172,7 @@ class LiveSettings : public CameraControl {
     std::atomic<std::uint64_t> orders_begun_{0};
     std::atomic<std::int64_t> frame_ready_ns_{std::numeric_limits<std::int64_t>::min()};
     std::atomic<std::int64_t> order_ready_ns_{std::numeric_limits<std::int64_t>::min()};
+    Sequencer sequencer_;
     TimedSemaphore news_, done_;
     std::atomic<bool> closed_{false};
     bool ordered_ = false;

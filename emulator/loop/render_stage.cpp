@@ -97,6 +97,7 @@ void RenderStage::latch(FrameSlot& slot) {
     record.bits = camera_.frame_bits();
     record.binning_x = use.binning_x, record.binning_y = use.binning_y;
     record.trigger_sequence = use.trigger_sequence;
+    record.sequencer_set = use.sequencer_set;
     record.quality_level = use.quality_level;
     record.reverse_x = use.reverse_x, record.reverse_y = use.reverse_y;
     record.faults = use.faults;

@@ -99,7 +99,7 @@ class Reader {
 };
 
 TriggerSource last_of(TriggerSource) { return TriggerSource::kLine7; }
-TriggerActivation last_of(TriggerActivation) { return TriggerActivation::kAnyEdge; }
+TriggerActivation last_of(TriggerActivation) { return TriggerActivation::kLevelLow; }
 TriggerOverlap last_of(TriggerOverlap) { return TriggerOverlap::kReadOut; }
 ExposureMode last_of(ExposureMode) { return ExposureMode::kTriggerWidth; }
 TestPattern last_of(TestPattern) { return TestPattern::kRampHorizontalMoving; }
@@ -226,6 +226,7 @@ void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedFr
     a(u.exposure_s), a(u.gain_db), a(u.black_level_dn), a(u.binning_x), a(u.binning_y), a(u.faults);
     a(u.image.stuck), a(u.image.black), a(u.image.saturated);
     maybe(a, u.image.tear_share), maybe(a, u.image.flip_rate);
+    if (!a.at_end()) a(u.sequencer_set);
 }
 template <class A, class R>
 void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedLoss> {

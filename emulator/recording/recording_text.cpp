@@ -120,6 +120,7 @@ OrderedJson text_of(const RecordedFrame& f, const RecordingHeader& header) {
                        {"quality_level", u.quality_level},
                        {"trigger_sequence", u.trigger_sequence},
                        {"skipped", u.skipped}};
+    if (u.sequencer_set >= 0) out["sequencer_set"] = u.sequencer_set;
     if (u.late) out["late"] = true;
     if (u.shutter_closed) out["shutter_closed"] = true;
     if (u.test_pattern != TestPattern::kOff) out["test_pattern"] = static_cast<int>(u.test_pattern);

@@ -74,7 +74,7 @@ void CameraStation::connect_lines() {
         if (begin_ns == 0)
             lines_.drop_exposures();
         else
-            lines_.post({LineEvent::kExposureStart, begin_ns, end_ns, true});
+            lines_.post({LineEvent::kExposureStart, begin_ns, end_ns});
     });
     lines_.on_edge([this](const LineEdge& edge) {
         using Kind = CameraEvent::Kind;

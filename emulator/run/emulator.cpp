@@ -157,9 +157,14 @@ void Emulator::make_events() {
     if (clock_.lockstep()) dispatch_->ask_events(*events_);
 }
 
-// Lines work in real time. Without a scenario's lines, GigE Vision has counters, timers and Line0.
+// Lines work in real time. Without a scenario's lines, GigE Vision has counters, timers and Line0; without
+// either, nothing would follow or make an edge.
 void Emulator::make_lines() {
     if (!limits_.outputs || !limits_.replay.empty() || clock_.lockstep()) return;
+    const bool has_gige = std::any_of(stations_.begin(), stations_.end(), [](const auto& station) {
+        return station->scenario().outputs.template find<GigeConfig>() != nullptr;
+    });
+    if (!scenario_.lines.any() && !has_gige) return;
     std::vector<CameraLines*> cameras;
     for (const auto& station : stations_) cameras.push_back(&station->lines());
     lines_ = std::make_unique<LineBench>(scenario_.lines, std::move(cameras));

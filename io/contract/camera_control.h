@@ -26,8 +26,10 @@ enum class TriggerSource : std::uint8_t {
     kLine6,
     kLine7
 };
-// The edge of a line that is a trigger (SFNC TriggerActivation).
-enum class TriggerActivation : std::uint8_t { kRisingEdge, kFallingEdge, kAnyEdge };
+// The edge of a line that is a trigger (SFNC TriggerActivation), or the level while which frames follow one
+// another.
+enum class TriggerActivation : std::uint8_t { kRisingEdge, kFallingEdge, kAnyEdge, kLevelHigh, kLevelLow };
+constexpr bool is_level(TriggerActivation activation) { return activation >= TriggerActivation::kLevelHigh; }
 // SFNC TriggerOverlap: a trigger may begin an exposure while the frame before is read out, or not.
 enum class TriggerOverlap : std::uint8_t { kOff, kReadOut };
 // SFNC ExposureMode: an exposure is ended by its time, or by the inactive edge of the trigger's line.
@@ -133,13 +135,16 @@ struct CameraLimits {
     // it. While automatic exposure is on, the exposure is refused as well.
     bool exposure_is_own = false, gain_is_own = false, frame_rate_is_own = false;
     bool has_automatic_exposure = false;
-    bool reversible = false;  // ReverseX, ReverseY
-    bool lockstep = false;    // one frame per `expose`, in simulated time; `triggered` cannot change
+    bool reversible = false;     // ReverseX, ReverseY
+    bool lockstep = false;       // one frame per `expose`, in simulated time; `triggered` cannot change
+    bool has_sequencer = false;  // CameraControl::sequencer()
 
     // ExposureMode TriggerWidth: the exposure is the client's, and the machine's clock counts.
     bool has_trigger_width() const { return !exposure_is_own && !lockstep; }
     // TriggerOverlap Off; the frames of a line scanner join without a gap.
     bool can_wait_for_readout() const { return !frame_rate_is_own; }
+    // TriggerActivation LevelHigh and LevelLow, which the machine's clock times.
+    bool has_trigger_levels() const { return !lockstep; }
 };
 
 // True when the width of a line's pulse is the exposure. Frames of bursts last exposure_s.
@@ -170,6 +175,8 @@ struct TriggerOrder {
     bool at_any_time = false;    // lockstep: a time that is not later than the previous frame's is allowed
 };
 
+class Sequencer;  // io/lines/sequencer.h
+
 // Reads and changes the camera's settings, and triggers frames. A change takes effect with the next frame
 // that has not begun its exposure. All functions: any thread but the loop, because they may take a lock.
 class CameraControl {
@@ -193,6 +200,8 @@ class CameraControl {
         const CameraSettings now = settings();
         return now.running && now.triggered ? 0 : kNeverReady_ns;
     }
+    // Returns the sequencer of a camera that has one (CameraLimits::has_sequencer), or null.
+    virtual Sequencer* sequencer() { return nullptr; }
     // Returns the machine's time when the camera's clock has counted that long from an instant on.
     virtual std::int64_t monotonic_after(std::int64_t from_monotonic_ns, double camera_s) const {
         return from_monotonic_ns + static_cast<std::int64_t>(camera_s * 1e9);

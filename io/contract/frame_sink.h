@@ -28,6 +28,7 @@ struct FrameRecord {
     std::uint32_t pose_sequence = 0;
     TimeTai pose_time;                   // time tag of that command
     std::uint32_t trigger_sequence = 0;  // sequence number of the `expose` that asked for the frame
+    std::int64_t sequencer_set = -1;     // the sequencer's set that it used; -1: the sequencer was off
     // Bits of ordered faults that strike it, except those of packets (fault.h), and flags (frame_flags.h).
     std::uint64_t faults = 0;
     std::uint32_t quality_level = 0;  // 0: as configured

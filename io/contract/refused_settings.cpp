@@ -42,7 +42,14 @@ std::string no_trigger_width(const SettingsChange& c, CameraSettings now, const 
     if (now.automatic_exposure) return key + "and automatic_exposure exclude each other";
     if (now.trigger_activation == TriggerActivation::kAnyEdge)
         return key + "and trigger_activation any_edge exclude each other";
+    if (is_level(now.trigger_activation))
+        return key + "and trigger_activation level_high and level_low exclude each other";
     return {};
+}
+
+std::string no_level(const SettingsChange& c, const CameraLimits& l) {
+    if (!c.trigger_activation || !is_level(*c.trigger_activation) || l.has_trigger_levels()) return {};
+    return "trigger_activation: level_high and level_low need real time, and this is lockstep";
 }
 
 }  // namespace
@@ -68,6 +75,7 @@ std::string refusal_of(const SettingsChange& c, const CameraSettings& now, const
              lacking("reverse_y", c.reverse_y, l.reversible),
              outside("trigger_divider", c.trigger_divider, 1, static_cast<double>(l.max_trigger_divider)),
              no_trigger_width(c, now, l),
+             no_level(c, l),
              c.trigger_overlap == TriggerOverlap::kOff && !l.can_wait_for_readout()
                  ? std::string("trigger_overlap: a line scanner's frames join without a gap")
                  : std::string(),

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 
+#include "io/lines/sequencer.h"
 #include "io/system/monotonic.h"
 
 namespace hilcam {
 
 CameraLines::CameraLines(CameraControl& camera, const LinePlan& plan)
-    : camera_(camera), plan_(plan), trigger_(camera, [this](const TriggerInput::Exposure& exposure) {
+    : camera_(camera),
+      sequencer_(camera.sequencer()),
+      plan_(plan),
+      trigger_(camera, [this](const TriggerInput::Exposure& exposure) {
           const Span span{exposure.begin_ns, exposure.end_ns == 0 ? kNever_ns : exposure.end_ns};
           if (!know_end(span)) expect_exposure(span);
           if (exposure.lost) frame_active_ = false;
@@ -85,10 +89,10 @@ void CameraLines::take(const Happening& h) {
     if (h.event != LineEvent::kExposureStart) return fire(h.event, true, h.at_ns);
     if (exposes_by_width(camera_.settings())) return;
     const Span exposure{h.at_ns, h.end_ns};
-    if (h.is_to_come)
-        announced_[announced_count_++ % announced_.size()] = h.at_ns;
-    else if (std::find(announced_.begin(), announced_.end(), h.at_ns) != announced_.end())
+    // The trigger's post and the loop's of one exposure come in any order.
+    if (std::find(known_.begin(), known_.end(), h.at_ns) != known_.end())
         return static_cast<void>(know_end(exposure));
+    known_[known_count_++ % known_.size()] = h.at_ns;
     expect_exposure(exposure);
 }
 
@@ -109,6 +113,7 @@ bool CameraLines::know_end(const Span& exposure) {
 // A counter counts one event, so that ends of counters cannot follow each other in a circle.
 void CameraLines::fire(LineEvent event, bool rises, std::int64_t at_ns) {
     if (event == LineEvent::kOff) return;
+    if (sequencer_) sequencer_->post(event, rises, at_ns);
     for (std::size_t i = 0; i < kTimers; ++i) timers_[i].take(settings_.timers[i], event, rises, at_ns);
     for (std::size_t i = 0; i < kCounters; ++i)
         if (counters_[i].take(settings_.counters[i], event, rises)) fire(end_of_counter(i), true, at_ns);
@@ -129,12 +134,13 @@ std::int64_t CameraLines::next_ns() const {
 bool CameraLines::step(std::int64_t now_ns) {
     const std::int64_t at_ns = next_ns();
     if (at_ns == kNever_ns || at_ns > now_ns) return false;
-    if (at_ns == trigger_.wake_ns()) {
-        trigger_.tick(at_ns);
-    } else if (!to_come_.empty() && at_ns == to_come_.front().monotonic_ns) {
+    // An edge comes first: it may end the level that a frame is due for.
+    if (!to_come_.empty() && at_ns == to_come_.front().monotonic_ns) {
         const LineEdge edge = to_come_.front();
         to_come_.erase(to_come_.begin());
         take_edge(edge);
+    } else if (at_ns == trigger_.wake_ns()) {
+        trigger_.tick(at_ns);
     } else if (exposing_ && at_ns == exposure_.end_ns) {
         exposing_ = false;
         fire(LineEvent::kExposureEnd, true, at_ns);
@@ -167,6 +173,7 @@ void CameraLines::tick(std::int64_t now_ns) {
         take(happening);
         settle(happening.at_ns);
     }
+    trigger_.follow(level_, now_ns);
     step_until(now_ns);
     settle(now_ns);
 }
@@ -174,7 +181,8 @@ void CameraLines::tick(std::int64_t now_ns) {
 std::int64_t CameraLines::wake_ns() const {
     const std::lock_guard lock(mutex_);
     // The camera does not say when it begins or ceases to listen to triggers.
-    return uses(LineSignal::kFrameTriggerWait) ? std::min(next_ns(), ticked_ns_ + kPoll_ns) : next_ns();
+    const bool polls = uses(LineSignal::kFrameTriggerWait) || trigger_.watches_level();
+    return polls ? std::min(next_ns(), ticked_ns_ + kPoll_ns) : next_ns();
 }
 
 // --- outputs

@@ -71,10 +71,9 @@ class CameraLines {
     struct Happening {
         LineEvent event = LineEvent::kOff;
         std::int64_t at_ns = 0, end_ns = 0;  // end: when an exposure that begins will end
-        // True for an exposure that a trigger will begin: it is shown at its time, and the loop's post of the
-        // same begin says no more than its end.
-        bool is_to_come = false;
     };
+    // An exposure may be posted twice, when its trigger is taken and when the loop begins it, in any order:
+    // the second post says no more than its end.
     void post(const Happening& happening) noexcept;
     // Exposures that were posted to come, and have not begun, will not.
     void drop_exposures() noexcept { post({}); }
@@ -91,6 +90,11 @@ class CameraLines {
     // call back. Call this before the threads start.
     void on_edge(std::function<void(const LineEdge&)> tell) { tell_ = std::move(tell); }
 
+    // The camera's settings have changed: asks for a tick() soon.
+    void camera_changed() {
+        if (wake_) wake_();
+    }
+
     // --- registers
     LineSettings settings() const;
     void change(const LineSettings& settings, std::int64_t now_ns);
@@ -104,7 +108,7 @@ class CameraLines {
     std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
   private:
-    static constexpr std::int64_t kPoll_ns = 5'000'000;  // for FrameTriggerWait
+    static constexpr std::int64_t kPoll_ns = 5'000'000;  // for FrameTriggerWait and levels
     static constexpr std::size_t kMaxOut = 256;
 
     struct Span {
@@ -124,6 +128,7 @@ class CameraLines {
     std::int64_t next_ns() const;
 
     CameraControl& camera_;
+    Sequencer* const sequencer_;  // may be null
     const LinePlan plan_;
     mutable std::mutex mutex_;
     LineSettings settings_;
@@ -131,11 +136,11 @@ class CameraLines {
     TriggerInput trigger_;
     std::array<LineCounter, kCounters> counters_{};
     std::array<LineTimer, kTimers> timers_{};
-    std::vector<LineEdge> to_come_;             // in order of time
-    std::vector<Span> exposures_to_come_;       // in order of their begin
-    Span exposure_;                             // the one that lasts, if exposing_; the last one otherwise
-    std::array<std::int64_t, 16> announced_{};  // begins of the newest exposures of triggers
-    std::size_t announced_count_ = 0;
+    std::vector<LineEdge> to_come_;         // in order of time
+    std::vector<Span> exposures_to_come_;   // in order of their begin
+    Span exposure_;                         // the one that lasts, if exposing_; the last one otherwise
+    std::array<std::int64_t, 16> known_{};  // begins of the newest exposures
+    std::size_t known_count_ = 0;
     bool exposing_ = false, frame_active_ = false;
     std::int64_t ticked_ns_ = 0;
     std::vector<LineEdge> out_;

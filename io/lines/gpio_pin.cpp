@@ -47,11 +47,11 @@ std::string advice_for(int error) {
     }
 }
 
-[[noreturn]] void fail(const PinConfig& pin) {
-    const int error = errno;
-    throw DeviceError(pin.gpio + " pin " + std::to_string(pin.pin) + ": " + std::strerror(error) +
-                      advice_for(error));
+std::string text_of(int error, const PinConfig& pin) {
+    return pin.gpio + " pin " + std::to_string(pin.pin) + ": " + std::strerror(error) + advice_for(error);
 }
+
+[[noreturn]] void fail(const PinConfig& pin) { throw DeviceError(text_of(errno, pin)); }
 
 Fd request(const PinConfig& pin, gpio_v2_line_request& wanted) {
     const Fd chip(::open(pin.gpio.c_str(), O_RDWR | O_CLOEXEC));
@@ -92,6 +92,17 @@ Fd open_output_pin(const PinConfig& pin, bool level) {
     wanted.config.attrs[0].attr.id = GPIO_V2_LINE_ATTR_ID_OUTPUT_VALUES;
     wanted.config.attrs[0].attr.values = level ? 1 : 0;
     return request(pin, wanted);
+}
+
+std::string fault_of(const PinConfig& pin) {
+    const Fd chip(::open(pin.gpio.c_str(), O_RDWR | O_CLOEXEC));
+    if (!chip) return text_of(errno, pin);
+    gpiochip_info about{};
+    if (ioctl(chip.get(), GPIO_GET_CHIPINFO_IOCTL, &about) < 0) return text_of(errno, pin);
+    gpio_v2_line_info line{};
+    line.offset = static_cast<std::uint32_t>(pin.pin);
+    if (ioctl(chip.get(), GPIO_V2_GET_LINEINFO_IOCTL, &line) < 0) return text_of(errno, pin);
+    return line.flags & GPIO_V2_LINE_FLAG_USED ? text_of(EBUSY, pin) : std::string();
 }
 
 bool read_pin(const Fd& pin) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "io/lines/lines_config.h"
 #include "io/system/fd.h"
@@ -16,6 +17,9 @@ namespace hilcam {
 // an output at a level. Throws DeviceError that says what is missing.
 Fd open_input_pin(const PinConfig& pin);
 Fd open_output_pin(const PinConfig& pin, bool level);
+
+// Returns why the pin cannot be used, as far as that shows without taking it; empty: it can.
+std::string fault_of(const PinConfig& pin);
 
 bool read_pin(const Fd& pin);
 // False: the chip is gone.

@@ -9,6 +9,7 @@
 
 #include "io/lines/gpio_pin.h"
 #include "io/lines/pps_source.h"
+#include "io/system/clock_difference.h"
 #include "io/system/datagram_arrival.h"
 #include "io/system/monotonic.h"
 #include "io/system/urgent_thread.h"
@@ -17,12 +18,6 @@ namespace hilcam {
 namespace {
 
 constexpr int kAtOnce = 64;  // datagrams taken before outputs get their turn
-
-std::int64_t tai_minus_monotonic_ns() {
-    const std::int64_t before_ns = monotonic_ns();
-    const std::int64_t tai_ns = clock_ns(CLOCK_TAI);
-    return tai_ns - before_ns - (monotonic_ns() - before_ns) / 2;
-}
 
 AllowList allow_list(const LinesConfig& config) {
     const LineUdpConfig udp = config.udp.value_or(LineUdpConfig{});
@@ -137,7 +132,7 @@ void LineBench::receive() {
         if (edge->clock == EdgeClock::kMonotonic) at_ns = edge->time_ns;
         if (edge->clock == EdgeClock::kTai)
             // Compared first, so that a hostile time cannot overflow.
-            at_ns = edge->time_ns < 0 ? 0 : edge->time_ns - tai_minus_monotonic_ns();
+            at_ns = edge->time_ns < 0 ? 0 : edge->time_ns - ahead_of_monotonic_ns(CLOCK_TAI);
         take({edge->line, edge->level, at_ns, edge->sequence}, edge->camera);
     }
 }
@@ -173,7 +168,7 @@ void LineBench::put_out(std::uint16_t camera, const LineEdge& edge) {
                               camera,    ++sent_,    edge.monotonic_ns};
         if (config_.udp->clock == LineUdpConfig::Clock::kTai) {
             datagram.clock = EdgeClock::kTai;
-            datagram.time_ns += tai_minus_monotonic_ns();
+            datagram.time_ns += ahead_of_monotonic_ns(CLOCK_TAI);
         }
         const auto bytes = encode_edge(datagram);
         for (const sockaddr_in& to : receivers_)

@@ -63,10 +63,11 @@ inline constexpr std::array<std::string_view, 12> kLineSignalNames = {
     "Off",          "ExposureActive", "FrameTriggerWait", "FrameActive", "Counter0Active", "Counter1Active",
     "Timer0Active", "Timer1Active",   "UserOutput0",      "UserOutput1", "UserOutput2",    "UserOutput3"};
 
-// True when an edge to that level is one of those that count.
+// True when an edge to that level is one of those that count; for a level, the edge that begins it.
 constexpr bool is_active_edge(TriggerActivation activation, bool rises) {
     return activation == TriggerActivation::kAnyEdge ||
-           rises == (activation == TriggerActivation::kRisingEdge);
+           rises ==
+               (activation == TriggerActivation::kRisingEdge || activation == TriggerActivation::kLevelHigh);
 }
 
 // Returns the line that is a trigger source; kLines: the source is no line.

@@ -80,8 +80,9 @@ Fields fields(LineOutputConfig& c) {
 Fields fields(LineTriggerConfig& c) {
     return {
         line_key(c.line, 0, "input that triggers (TriggerSource)"),
-        choice("activation", c.activation, {"rising_edge", "falling_edge", "any_edge"},
-               "edge that triggers (TriggerActivation)"),
+        choice("activation", c.activation,
+               {"rising_edge", "falling_edge", "any_edge", "level_high", "level_low"},
+               "edge that triggers, or level while which frames follow one another (TriggerActivation)"),
         integer("divider", c.divider, {1, 65535}, "each n-th such edge triggers (TriggerDivider)"),
         choice("overlap", c.overlap, {"off", "read_out"},
                "read_out: a trigger may come while the frame before is read out (TriggerOverlap)"),

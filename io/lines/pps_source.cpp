@@ -17,19 +17,36 @@ namespace {
 
 std::int64_t ns_of(const pps_ktime& time) { return std::int64_t{time.sec} * 1'000'000'000 + time.nsec; }
 
-[[noreturn]] void fail(const std::string& device) {
-    const int error = errno;
-    throw DeviceError(device + ": " + std::strerror(error) +
-                      (error == ENOTTY ? "; it is no PPS device" : "; ls /dev/pps* shows what there is"));
+std::string text_of(int error, const std::string& device) {
+    return device + ": " + std::strerror(error) +
+           (error == ENOTTY ? "; it is no PPS device" : "; ls /dev/pps* shows what there is");
+}
+
+[[noreturn]] void fail(const std::string& device) { throw DeviceError(text_of(errno, device)); }
+
+// Opens it and asks what it can capture; without either, errno says why.
+Fd open_pps(const std::string& device, int& can) {
+    Fd fd(::open(device.c_str(), O_RDWR | O_CLOEXEC));
+    if (fd && ioctl(fd.get(), PPS_GETCAP, &can) < 0) {
+        const int error = errno;
+        fd.reset();
+        errno = error;
+    }
+    return fd;
 }
 
 }  // namespace
 
-PpsSource::PpsSource(std::string device) : device_(std::move(device)) {
-    fd_ = Fd(::open(device_.c_str(), O_RDWR | O_CLOEXEC));
-    if (!fd_) fail(device_);
+std::string fault_of_pps(const std::string& device) {
     int can = 0;
-    if (ioctl(fd_.get(), PPS_GETCAP, &can) < 0) fail(device_);
+    const Fd fd = open_pps(device, can);
+    return fd ? std::string() : text_of(errno, device);
+}
+
+PpsSource::PpsSource(std::string device) : device_(std::move(device)) {
+    int can = 0;
+    fd_ = open_pps(device_, can);
+    if (!fd_) fail(device_);
     pps_kparams params{};
     if (ioctl(fd_.get(), PPS_GETPARAMS, &params) < 0) fail(device_);
     params.api_version = PPS_API_VERS;

@@ -15,6 +15,9 @@
 
 namespace hilcam {
 
+// Returns why the device cannot be used; empty: it can.
+std::string fault_of_pps(const std::string& device);
+
 class PpsSource {
   public:
     static constexpr std::int64_t kPulse_ns = 10'000'000;

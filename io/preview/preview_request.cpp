@@ -18,7 +18,8 @@ constexpr int kMaxStep = 256;
 
 constexpr std::array<std::string_view, 10> kSources = {"software", "line0", "action1", "line1", "line2",
                                                        "line3",    "line4", "line5",   "line6", "line7"};
-constexpr std::array<std::string_view, 3> kActivations = {"rising_edge", "falling_edge", "any_edge"};
+constexpr std::array<std::string_view, 5> kActivations = {"rising_edge", "falling_edge", "any_edge",
+                                                          "level_high", "level_low"};
 constexpr std::array<std::string_view, 2> kOverlaps = {"off", "read_out"};
 constexpr std::array<std::string_view, 2> kExposureModes = {"timed", "trigger_width"};
 enum class NumbersFormat { kPng, kTiff };

@@ -41,7 +41,7 @@ void PtpSlave::enable(bool enabled) {
     {
         const std::lock_guard lock(orders_);
         wanted_ = enabled;
-        interrupted_ = interrupted_ || !enabled;
+        if (!enabled) off_ns_ = monotonic_ns() + kOffPatience_ns;
     }
     wake(wakeup_);
 }
@@ -90,21 +90,19 @@ void PtpSlave::serve() {
 }
 
 void PtpSlave::follow_orders(std::int64_t now_ns) {
-    bool wanted = false, moved = false, interrupted = false;
+    bool wanted = false, moved = false;
     {
         const std::lock_guard lock(orders_);
-        wanted = wanted_;
-        interrupted = std::exchange(interrupted_, false);
+        wanted = wanted_ || (enabled_ && now_ns < off_ns_);
         moved = std::exchange(moved_, false);
     }
     if (moved && sockets_) {
         sockets_.reset();
         retry_ns_ = 0;
     }
-    if (interrupted && enabled_) {
+    if (!wanted && enabled_) {
         sockets_.reset();
         port_.disable(now_ns);
-        enabled_ = false;
     }
     if (wanted && !enabled_) {
         port_.initialize();

@@ -35,7 +35,9 @@ class PtpSlave {
     void start();  // the thread; owner thread
     void stop() noexcept;
 
-    // Any thread but the loop.
+    // Any thread but the loop. It is off a second after the order; off and on within that changes nothing.
+    // The ROS 2 driver camera_aravis2 does so at each frame while PtpStatus is Initializing or Uncalibrated,
+    // and a slave that began anew each time would never be in time.
     void enable(bool enabled);
     void move(const NetInterface& net);  // the camera has another address
     PtpDataSet data_set() const { return data_set_.read(); }
@@ -47,6 +49,7 @@ class PtpSlave {
     // A card's driver gives a transmit stamp within microseconds, or never.
     static constexpr std::int64_t kStampWait_ns = 20'000'000;
     static constexpr int kStampTries = 3;
+    static constexpr std::int64_t kOffPatience_ns = 1'000'000'000;
 
     void serve();
     void follow_orders(std::int64_t now_ns);
@@ -68,7 +71,7 @@ class PtpSlave {
     std::mutex orders_;  // protects the next lines up to the blank one
     NetInterface net_;
     bool wanted_ = false, moved_ = false;
-    bool interrupted_ = false;  // it was off since the thread looked last
+    std::int64_t off_ns_ = 0;  // when it is off, if it is not wanted
     std::vector<Line> lines_;
 
     bool enabled_ = false;

@@ -14,6 +14,7 @@
 #include <limits>
 #include <string>
 
+#include "io/system/clock_difference.h"
 #include "io/system/monotonic.h"
 #include "render/vocabulary/check.h"
 
@@ -69,23 +70,10 @@ Fd open_group(const NetInterface& net, int interface_number, std::uint16_t port)
 
 std::int64_t ns_of(const timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; }
 
-// Returns CLOCK_REALTIME minus CLOCK_MONOTONIC, by the fastest of three readings.
-std::int64_t realtime_minus_monotonic_ns() {
-    std::int64_t fastest_ns = std::numeric_limits<std::int64_t>::max(), difference_ns = 0;
-    for (int i = 0; i < 3; ++i) {
-        const std::int64_t before_ns = monotonic_ns(), real_ns = clock_ns(CLOCK_REALTIME),
-                           took_ns = monotonic_ns() - before_ns;
-        if (took_ns >= fastest_ns) continue;
-        fastest_ns = took_ns;
-        difference_ns = real_ns - before_ns - took_ns / 2;
-    }
-    return difference_ns;
-}
-
 // Returns nothing for a stamp that cannot be: CLOCK_REALTIME was set meanwhile.
 std::optional<std::int64_t> monotonic_of_stamp(const timespec& stamp) {
     if (stamp.tv_sec == 0 && stamp.tv_nsec == 0) return {};
-    const std::int64_t ns = ns_of(stamp) - realtime_minus_monotonic_ns();
+    const std::int64_t ns = ns_of(stamp) - ahead_of_monotonic_ns(CLOCK_REALTIME);
     const std::int64_t age_ns = monotonic_ns() - ns;
     if (age_ns > kOldestStamp_ns || age_ns < -kMostAhead_ns) return {};
     return ns;

@@ -114,6 +114,10 @@ OrderedJson ground_list(const std::vector<SeenGroundThing>& things, const char* 
     return out;
 }
 
+OrderedJson set_of(const FrameRecord& record) {
+    return record.sequencer_set < 0 ? OrderedJson() : OrderedJson(record.sequencer_set);
+}
+
 }  // namespace
 
 std::string TruthDocument::name_of_thing(const SeenThing& thing) const {
@@ -151,6 +155,7 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
                        {"gain_db", record.gain_db},
                        {"pose_sequence", record.pose_sequence},
                        {"trigger_sequence", record.trigger_sequence},
+                       {"sequencer_set", set_of(record)},
                        {"quality_level", record.quality_level},
                        {"faults", names_of_bits(record.faults)},
                        {"image", image_of(t, record, source_.model)},

@@ -148,6 +148,16 @@ class Pins(unittest.TestCase):
         self.assertIn(f"{CHIP.device} pin 99: Invalid argument; the chip has fewer pins", text)
 
 
+    def test_doctor_says_which_pins_and_pulses_are_there(self):
+        bench = Bench(f"  inputs: [{{line: 0, gpio: {CHIP.device}, pin: 3}}, {{line: 2, gpio: {CHIP.device}, pin: 99}},\n"
+                      "           {line: 4, pps: /dev/pps7}]\n")
+        status, text = run(HILCAM, "doctor", bench.command[-1])
+        self.assertEqual(status, 1, text)
+        self.assertRegex(text, f"good +line +{CHIP.device} pin 3\n")
+        self.assertRegex(text, f"problem +line +{CHIP.device} pin 99: Invalid argument; the chip has fewer pins")
+        self.assertRegex(text, "problem +line +/dev/pps7: No such file or directory; ls /dev/pps.* shows what there is\n.*set lines.inputs.2")
+
+
 class Pulses(unittest.TestCase):
     def test_a_pulse_per_second_triggers_each_second(self):
         wait_until(lambda: os.path.exists("/dev/pps0"), 10, "/dev/pps0")

@@ -30,10 +30,13 @@ class AnyCamera : public CameraControl {
                    .min_frame_rate_hz = 0.1,
                    .max_frame_rate_hz = 200,
                    .max_binning = 4,
-                   .reversible = true};
+                   .reversible = true,
+                   .has_sequencer = true};
+    Sequencer own_sequencer;
 
     CameraSettings settings() const override { return s; }
     CameraLimits limits() const override { return l; }
+    Sequencer* sequencer() override { return &own_sequencer; }
     bool change(const SettingsChange& c) override {
         const auto within = [](const auto& value, double least, double most) {
             return !value || (static_cast<double>(*value) >= least && static_cast<double>(*value) <= most);

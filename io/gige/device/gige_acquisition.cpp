@@ -51,6 +51,8 @@ void GigeAcquisition::add_control() {
 }
 
 Status GigeAcquisition::start() {
+    // Before the stream, whose first frame uses the start set.
+    if (Sequencer* const sequencer = core_.camera.sequencer()) sequencer->restart();
     core_.stream.acquiring = true;
     ++core_.stream.epoch;
     core_.publish_stream();

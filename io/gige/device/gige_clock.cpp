@@ -9,6 +9,7 @@
 
 #include "io/gige/device/gige_registers.h"
 #include "io/ptp/ptp_message.h"
+#include "io/system/clock_difference.h"
 
 namespace hilcam {
 
@@ -18,12 +19,6 @@ using gvcp::Status;
 
 namespace {
 
-std::int64_t read_ns(clockid_t clock) {
-    timespec t{};
-    clock_gettime(clock, &t);
-    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
-
 // Two clocks cannot be read at the same instant; smaller differences are reading errors.
 constexpr std::int64_t kReadingError_ns = 2'000;
 
@@ -31,16 +26,7 @@ constexpr std::int64_t kReadingError_ns = 2'000;
 
 GigeSystemClock read_system_clock() {
     GigeSystemClock clock;
-    // The best of several readings is the fastest.
-    std::int64_t min_ns = std::numeric_limits<std::int64_t>::max();
-    for (int i = 0; i < 3; ++i) {
-        const std::int64_t before_ns = read_ns(CLOCK_MONOTONIC);
-        const std::int64_t tai_ns = read_ns(CLOCK_TAI);
-        const std::int64_t after_ns = read_ns(CLOCK_MONOTONIC);
-        if (after_ns - before_ns >= min_ns) continue;
-        min_ns = after_ns - before_ns;
-        clock.tai_minus_monotonic_ns = tai_ns - before_ns - min_ns / 2;
-    }
+    clock.tai_minus_monotonic_ns = ahead_of_monotonic_ns(CLOCK_TAI);
     timex state{};
     const int result = adjtimex(&state);
     clock.synchronised = result >= 0 && result != TIME_ERROR && !(state.status & STA_UNSYNC);

@@ -16,6 +16,7 @@
 #include "io/gige/face/face_files.h"
 #include "io/gige/stream/gige_stream.h"
 #include "io/lines/camera_lines.h"
+#include "io/lines/sequencer.h"
 #include "io/ptp/device_clock.h"
 #include "io/ptp/device_clock_config.h"
 #include "io/ptp/ptp_data_set.h"
@@ -107,6 +108,7 @@ struct GigeSettings {
     std::uint32_t chunks = 0;                                      // bits by Chunk
     std::uint32_t components = bit_of(GigeComponent::kIntensity);  // parts of multipart frames
     std::uint32_t events = 0;                                      // bits by index in kGigeEvents
+    SequencerProgram sequencer;                                    // for GigeSequencer
     bool throughput_limited = false;
     std::uint64_t throughput_limit_bytes_s = 0;
 };
@@ -152,7 +154,9 @@ struct GigeCore {
         return static_cast<std::uint64_t>(clock.device_ns(monotonic_ns));
     }
     gvcp::Status change(const SettingsChange& wanted) {
-        return camera.change(wanted) ? gvcp::kSuccess : gvcp::kInvalidParameter;
+        if (!camera.change(wanted)) return gvcp::kInvalidParameter;
+        lines.camera_changed();
+        return gvcp::kSuccess;
     }
     // Updates the stream side's state from the settings, and reports it.
     void publish_stream();

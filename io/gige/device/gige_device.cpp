@@ -46,12 +46,14 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
       image(core),
       trigger(core),
       lines(core),
+      sequencer(core),
       actions(core, [this] { messages.on_event(gvcp::Event::kActionLate); }),
       faults(core),
       user_sets(core,
                 [this] {
                     image.fit();
                     trigger.rearm();
+                    sequencer.stop();
                     core.publish_stream();
                 }),
       xml(padded(id.face

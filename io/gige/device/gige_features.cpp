@@ -24,6 +24,7 @@ FeatureTable gige_features(const CameraLimits& limits, bool multipart,
     add_image_features(table);
     add_acquisition_features(table);
     add_line_features(table);
+    add_sequencer_features(table);
     add_chunk_features(table);
     add_event_features(table);
     add_transport_features(table);

@@ -160,6 +160,9 @@ FeatureTable gige_features(const CameraLimits& limits, bool multipart,
 // Returns the entries of the camera's lines besides Line0, for selectors.
 std::vector<EnumEntry> own_lines(const LinePlan& plan, bool with_outputs);
 
+// Returns the events that counters, timers and the sequencer can follow.
+std::vector<EnumEntry> events_of(const LinePlan& plan);
+
 // Each adds the features of one concept.
 void add_device_features(FeatureTable& table);
 void add_image_features(FeatureTable& table);
@@ -170,5 +173,6 @@ void add_event_features(FeatureTable& table);
 void add_transport_features(FeatureTable& table);
 void add_fault_features(FeatureTable& table);
 void add_ptp_features(FeatureTable& table);
+void add_sequencer_features(FeatureTable& table);
 
 }  // namespace hilcam

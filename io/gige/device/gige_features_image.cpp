@@ -159,7 +159,10 @@ void add_acquisition_features(FeatureTable& t) {
             enumeration("TriggerSource", r::kTriggerSource, trigger_sources(t), "Where triggers come from"),
             command("TriggerSoftware", r::kTriggerSoftware, "A trigger"),
             enumeration("TriggerActivation", r::kTriggerActivation,
-                        counted({"RisingEdge", "FallingEdge", "AnyEdge"}), "Of a line"),
+                        l.has_trigger_levels()
+                            ? counted({"RisingEdge", "FallingEdge", "AnyEdge", "LevelHigh", "LevelLow"})
+                            : counted({"RisingEdge", "FallingEdge", "AnyEdge"}),
+                        "Of a line; while a level holds, frames follow one another"),
             integer("TriggerDivider", r::kTriggerDivider, "Each n-th edge of a line is a trigger")
                 .between(1, static_cast<double>(l.max_trigger_divider)),
             real("TriggerDelay", r::kTriggerDelay_us, "From a trigger to its first frame")
@@ -238,6 +241,8 @@ std::vector<ChunkRow> chunk_rows(const CameraLimits& l) {
              "Faults that struck the frame: bit n is FaultSelector n; 59 light not kept yet, 60 time stood, "
              "61 no poses came, 62 "
              "time tags went back")},
+        {Chunk::kSequencerSet, "SequencerSetActive",
+         u32("ChunkSequencerSetActive", "The sequencer's set that the frame used; 0 without sequencer")},
     };
 }
 

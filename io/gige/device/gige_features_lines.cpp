@@ -20,15 +20,6 @@ std::vector<EnumEntry> named(const std::array<std::string_view, N>& names) {
 
 std::string name_of_line(std::size_t line) { return "Line" + std::to_string(line); }
 
-// Returns what counters and timers can follow.
-std::vector<EnumEntry> events(const LinePlan& plan) {
-    std::vector<EnumEntry> entries = named(kLineEventNames);
-    for (std::size_t i = 0; i < kLines; ++i)
-        if (plan.is_there[i] && !plan.is_output[i])
-            entries.push_back({name_of_line(i), static_cast<std::uint64_t>(event_of_line(i))});
-    return entries;
-}
-
 std::vector<EnumEntry> activations() { return counted({"RisingEdge", "FallingEdge", "AnyEdge"}); }
 
 Feature time_us(const char* name, std::uint32_t address, double least_us, const char* meaning) {
@@ -43,9 +34,9 @@ void add_counters(FeatureTable& t) {
                   .selects({"CounterEventSource", "CounterEventActivation", "CounterResetSource",
                             "CounterReset", "CounterValue", "CounterValueAtReset", "CounterDuration",
                             "CounterStatus"}),
-              enumeration("CounterEventSource", r::kCounterEventSource, events(t.plan), "What it counts"),
+              enumeration("CounterEventSource", r::kCounterEventSource, events_of(t.plan), "What it counts"),
               enumeration("CounterEventActivation", r::kCounterEventActivation, activations(), "Of a line"),
-              enumeration("CounterResetSource", r::kCounterResetSource, events(t.plan),
+              enumeration("CounterResetSource", r::kCounterResetSource, events_of(t.plan),
                           "What sets it to 0; a line does so as it rises"),
               command("CounterReset", r::kCounterReset, "Sets it to 0"),
               integer("CounterValue", r::kCounterValue, "Events since its reset").between(0, kMaxCount),
@@ -75,12 +66,20 @@ void add_timers(FeatureTable& t) {
               enumeration("TimerStatus", r::kTimerStatus,
                           counted({"TimerIdle", "TimerTriggerWait", "TimerActive"}), "What it does")
                   .read_only(),
-              enumeration("TimerTriggerSource", r::kTimerTriggerSource, events(t.plan), "What starts it"),
+              enumeration("TimerTriggerSource", r::kTimerTriggerSource, events_of(t.plan), "What starts it"),
               enumeration("TimerTriggerActivation", r::kTimerTriggerActivation, activations(), "Of a line"),
           });
 }
 
 }  // namespace
+
+std::vector<EnumEntry> events_of(const LinePlan& plan) {
+    std::vector<EnumEntry> entries = named(kLineEventNames);
+    for (std::size_t i = 0; i < kLines; ++i)
+        if (plan.is_there[i] && !plan.is_output[i])
+            entries.push_back({name_of_line(i), static_cast<std::uint64_t>(event_of_line(i))});
+    return entries;
+}
 
 std::vector<EnumEntry> own_lines(const LinePlan& plan, bool with_outputs) {
     std::vector<EnumEntry> entries;

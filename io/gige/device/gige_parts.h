@@ -17,6 +17,7 @@
 #include "io/gige/device/gige_image.h"
 #include "io/gige/device/gige_lines.h"
 #include "io/gige/device/gige_messages.h"
+#include "io/gige/device/gige_sequencer.h"
 #include "io/gige/device/gige_transport.h"
 #include "io/gige/device/gige_trigger.h"
 #include "io/gige/device/gige_user_sets.h"
@@ -42,6 +43,7 @@ struct GigeDevice::Parts {
     GigeImage image;
     GigeTrigger trigger;
     GigeLines lines;
+    GigeSequencer sequencer;
     GigeActions actions;
     GigeFaultRegisters faults;
     GigeUserSets user_sets;  // after all parts with settings

@@ -106,6 +106,14 @@ inline constexpr std::uint32_t kPtpDataSetLatch = 0xA700, kPtpLatchedStatus = 0x
                                kPtpServoStatus = 0xA708, kPtpTimeScale = 0xA70C, kPtpUtcOffset_s = 0xA710,
                                kPtpSteps = 0xA714, kPtpOffset_ns = 0xA718, kPtpDelay_ns = 0xA720,
                                kPtpClockId = 0xA728, kPtpParentId = 0xA730, kPtpGrandmasterId = 0xA738;
+// Sequencer.
+inline constexpr std::uint32_t kSequencerMode = 0xA780, kSequencerConfigurationMode = 0xA784,
+                               kSequencerFeatureSelector = 0xA788, kSequencerFeatureEnable = 0xA78C,
+                               kSequencerSetSelector = 0xA790, kSequencerSetSave = 0xA794,
+                               kSequencerSetLoad = 0xA798, kSequencerSetActive = 0xA79C,
+                               kSequencerSetStart = 0xA7A0, kSequencerPathSelector = 0xA7A4,
+                               kSequencerSetNext = 0xA7A8, kSequencerTriggerSource = 0xA7AC,
+                               kSequencerTriggerActivation = 0xA7B0;
 // Faults.
 inline constexpr std::uint32_t kFaultSelector = 0xA500, kFaultEnable = 0xA504, kFaultClear = 0xA508,
                                kFaultClearAll = 0xA50C, kFaultActive = 0xA510;

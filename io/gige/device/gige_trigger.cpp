@@ -28,7 +28,8 @@ GigeTrigger::GigeTrigger(GigeCore& core) : core_(core) {
         reg::kTriggerActivation,
         [settings] { return static_cast<std::uint64_t>(settings().trigger_activation); },
         [this](std::uint64_t v) {
-            if (v > static_cast<std::uint64_t>(TriggerActivation::kAnyEdge)) return Status::kInvalidParameter;
+            if (v > static_cast<std::uint64_t>(TriggerActivation::kLevelLow))
+                return Status::kInvalidParameter;
             return core_.change({.trigger_activation = static_cast<TriggerActivation>(v)});
         });
     r.number(

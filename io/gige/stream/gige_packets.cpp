@@ -134,6 +134,9 @@ void write_chunk(ByteWriter& out, Chunk chunk, const FrameRecord& r, const GigeS
         case Chunk::kFaults:
             out.u64(r.faults);
             break;
+        case Chunk::kSequencerSet:
+            out.u32(static_cast<std::uint32_t>(std::max<std::int64_t>(0, r.sequencer_set)));
+            break;
     }
 }
 

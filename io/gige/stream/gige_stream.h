@@ -34,8 +34,9 @@ enum class Chunk : std::uint8_t {
     kExposureMid,      // i64: middle of the exposure, simulated TAI ns
     kTriggerSequence,  // u32
     kFaults,           // u64: FrameRecord::faults
+    kSequencerSet,     // u32: the sequencer's set; 0 while it is off
 };
-inline constexpr int kChunks = 15;
+inline constexpr int kChunks = 16;
 inline constexpr std::uint32_t kChunkIdBase = 0x48430001;  // "HC", from 1 on
 inline constexpr std::uint32_t kImageChunkId = 0x48430000;
 constexpr std::uint32_t chunk_bytes(Chunk chunk) {
@@ -47,6 +48,7 @@ constexpr std::uint32_t chunk_bytes(Chunk chunk) {
         case Chunk::kPixelFormat:
         case Chunk::kPoseSequence:
         case Chunk::kTriggerSequence:
+        case Chunk::kSequencerSet:
             return 4;
         default:
             return 8;

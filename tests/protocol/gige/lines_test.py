@@ -3,6 +3,7 @@
 
     lines_test.py HILCAM [tests ...]
 """
+import pathlib
 import re
 import socket
 import statistics
@@ -78,7 +79,8 @@ class LinesTest(CameraTest):
     def setUpClass(cls):
         cls.wires = Wires()
         cls.folder = tempfile.TemporaryDirectory()
-        cls.emulator = Emulator(cls.hilcam, cls.address, cls.folder.name, *cls.wires.sets,
+        sets = (value.format(folder=cls.folder.name) for value in cls.sets)
+        cls.emulator = Emulator(cls.hilcam, cls.address, cls.folder.name, *cls.wires.sets, *sets,
                                 scenario=SOURCE / "tests/protocol/lines_scenario.yaml")
         cls.faulty, cls.xml = False, None
 
@@ -189,6 +191,28 @@ class Triggers(LinesTest):
         self.assertEqual([frame[0] for frame in self.take(2)], [rise for rise, _ in edges])
         self.none_comes()
         self.camera.stop_acquisition()
+
+    def test_frames_follow_one_another_while_a_level_holds(self):
+        """At 40 frames a second from the level's edge on, and none once it is over."""
+        for activation, level in (("LevelHigh", 1), ("LevelLow", 0)):
+            with self.subTest(activation):
+                self.wires.edge(0, 1 - level)
+                time.sleep(0.05)
+                self.acquiring(TriggerActivation=activation, ExposureTime=2000.0, AcquisitionFrameRate=40.0)
+                self.set("CounterSelector", "Counter0"), self.set("CounterEventSource", "FrameStart")
+                self.camera.execute_command("CounterReset")
+                at_ns = time.monotonic_ns() + 20 * MS
+                edge = self.wires.edge(0, level, at_ns)
+                self.wires.edge(0, 1 - level, at_ns + 260 * MS)
+                self.eventually("eleven frames", lambda: self.camera.get_integer("CounterValue") == 11)
+                frames = self.take(8)  # outputs of a busy machine may drop some
+                self.assertEqual({frame[0] for frame in frames}, {edge})
+                places = [(frame[2] - at_ns - MS) / (25 * MS) for frame in frames]
+                self.assertEqual(places, [round(place) for place in places])
+                while self.next_frame(0.3):
+                    pass
+                self.assertEqual(self.camera.get_integer("CounterValue"), 11)
+                self.camera.stop_acquisition()
 
     def test_the_command_expose_is_a_pulse_on_line_0(self):
         self.acquiring(TriggerDivider=2)
@@ -348,13 +372,32 @@ class Jitter(LinesTest):
 class Document(LinesTest):
     def test_its_program_runs(self):
         text = (SOURCE / "docs/lines.md").read_text()
-        program, = re.findall(r"```python\n(.*?)```", text, re.S)
+        _, program = re.findall(r"```python\n(.*?)```", text, re.S)  # the first is sequencer_test.py's
         program = program.replace("5014", str(self.wires.to[1]))
         self.acquiring()
         result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(len(self.take(3)), 3)
         self.camera.stop_acquisition()
+
+
+class Threads(unittest.TestCase):
+    def test_a_run_without_lines_and_without_a_gige_camera_has_no_thread_for_them(self):
+        for sets, wanted in (((), False), ((f"lines.udp.port={free_port()}",), True)):
+            with tempfile.TemporaryDirectory() as folder:
+                words = [word for value in (f"outputs.files.folder={folder}/frames", *sets) for word in ("--set", value)]
+                process = subprocess.Popen([sys.argv[1], "run", str(SOURCE / "tests/protocol/minimal_scenario.yaml"), *words],
+                                           stderr=subprocess.DEVNULL)
+                self.addCleanup(process.wait)
+                self.addCleanup(process.kill)
+                threads = set()
+                while "render" not in threads:  # the loop's begins last
+                    self.assertIsNone(process.poll())
+                    time.sleep(0.05)
+                    threads = {file.read_text().strip() for file in pathlib.Path(f"/proc/{process.pid}/task").glob("*/comm")}
+                self.assertEqual("lines" in threads, wanted, threads)
+                process.kill()
+                process.wait()
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Judges a camera's clock from outside: reads it over GVCP between two readings of this machine's clock, whatever the camera says.
 
-    ptp_judge.py CAMERA CLIENT [--enable] [--until STATUS] [--settle SECONDS] [--seconds SECONDS] [--clock realtime|tai]
+    ptp_judge.py CAMERA CLIENT [--enable] [--until STATUS] [--until-steps COUNT] [--until-parent ID] [--settle SECONDS] [--seconds SECONDS] [--clock realtime|tai]
 
 Prints JSON: "samples" of [seconds, offset_ns, half_width_ns] (camera minus machine; the offset is right to the half width), the
 names and values of PTP's features after a latch, and how long --until took.
@@ -34,12 +34,24 @@ def sample(camera, clock):
     return best
 
 
+def latched(features, name):
+    features.execute("PtpDataSetLatch")
+    return features.get(name)
+
+
+def is_come(name, value, wanted):
+    """Steps only count up."""
+    return value >= wanted if name == "PtpSteps" else value == wanted
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("camera")
     parser.add_argument("client")
     parser.add_argument("--enable", action="store_true")
     parser.add_argument("--until")
+    parser.add_argument("--until-steps", type=int)
+    parser.add_argument("--until-parent", type=int)
     parser.add_argument("--settle", type=float, default=0)
     parser.add_argument("--seconds", type=float, default=1)
     parser.add_argument("--clock", choices=CLOCKS, default="realtime")
@@ -50,9 +62,11 @@ def main():
         if a.enable:
             features.set("PtpEnable", 1)
         begun = time.monotonic()
-        while a.until and features.get("PtpStatus") != a.until:
+        wanted = {name: value for name, value in (("PtpSteps", a.until_steps), ("PtpParentClockID", a.until_parent),
+                                                  ("PtpStatus", a.until)) if value is not None}
+        while name := next((name for name, value in wanted.items() if not is_come(name, latched(features, name), value)), None):
             if time.monotonic() > begun + 60:
-                sys.exit(f"PtpStatus is {features.get('PtpStatus')} after 60 s, not {a.until}")
+                sys.exit(f"{name} is {latched(features, name)} after 60 s, not {wanted[name]}")
             time.sleep(0.1)
             camera.keep_control()
         took = time.monotonic() - begun

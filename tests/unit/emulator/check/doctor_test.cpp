@@ -88,6 +88,31 @@ TEST(Doctor, WithoutAScenarioNothingIsAProblem) {
     EXPECT_THAT(findings_text(findings), HasSubstr("apt install v4l2loopback-dkms"));
 }
 
+TEST(Doctor, PtpIsAProblemWhereAClockNeedsItAndItsPortsCannotBeOpened) {
+    MachineFacts m = good_machine();
+    m.interfaces[0].ptp_fault = "PTP on eth1: UDP port 319: Permission denied";
+    EXPECT_EQ(about("ptp", all_needs(), m, kProblem), "");  // no clock follows a master
+    BenchNeeds n = all_needs();
+    n.gige[0].ptp = PtpTransport::kUdp;
+    EXPECT_THAT(about("ptp", n, m, kProblem), HasSubstr("port 319: Permission denied -> "));
+    m.interfaces[0].ptp_fault.clear();
+    EXPECT_THAT(about("ptp", n, m, Finding::Level::kGood),
+                HasSubstr("UDP 319 and 320 on eth1 can be opened"));
+    n.gige[0].ptp = PtpTransport::kEthernet;
+    EXPECT_THAT(about("ptp", n, m, Finding::Level::kGood), HasSubstr("Ethernet messages on eth1"));
+}
+
+TEST(Doctor, PinsAndPulsesThatAScenarioNamesAreLookedFor) {
+    BenchNeeds n = all_needs();
+    n.wires = {{"lines.inputs.0", {.gpio = "/dev/gpiochip0", .pin = 17}, ""},
+               {"lines.inputs.1", {}, "/dev/pps0"}};
+    MachineFacts m = good_machine();
+    m.wire_faults = {"", "/dev/pps0: No such file or directory"};
+    EXPECT_EQ(about("line", n, m, Finding::Level::kGood), "/dev/gpiochip0 pin 17 -> ");
+    EXPECT_EQ(about("line", n, m, kProblem),
+              "/dev/pps0: No such file or directory -> set lines.inputs.1 to one that is there");
+}
+
 TEST(Doctor, Loopback) {
     MachineFacts m = good_machine();
     m.loopback = {};

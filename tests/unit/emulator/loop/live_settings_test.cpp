@@ -37,6 +37,44 @@ TEST(LiveSettings, AWidthNeedsAPulseAndAnExposureThatIsNotTheCameras) {
     EXPECT_FALSE(LiveSettings(stepping).change({.exposure_mode = ExposureMode::kTriggerWidth}));
 }
 
+TEST(LiveSettings, LevelsNeedRealTimeAndHaveNoWidth) {
+    LiveSettings settings(CameraModel{});
+    ASSERT_TRUE(settings.change({.trigger_activation = TriggerActivation::kLevelHigh}));
+    EXPECT_FALSE(settings.change({.exposure_mode = ExposureMode::kTriggerWidth}));
+    LiveSettings lockstep(CameraModel{}, {.lockstep = true});
+    EXPECT_FALSE(lockstep.change({.trigger_activation = TriggerActivation::kLevelLow}));
+}
+
+TEST(LiveSettings, ASequencerExcludesAutomaticExposureAndASequenceOfTheCamerasOwn) {
+    LiveSettings settings(CameraModel{});
+    ASSERT_NE(settings.sequencer(), nullptr);
+    settings.sequencer()->start({});
+    EXPECT_FALSE(settings.change({.automatic_exposure = true}));
+    settings.sequencer()->stop();
+    EXPECT_TRUE(settings.change({.automatic_exposure = true}));
+    CameraModel stepping;
+    stepping.sequence.resize(2);
+    EXPECT_EQ(LiveSettings(stepping).sequencer(), nullptr);
+}
+
+// Highest rate 50 Hz. The trigger that waits may get the set of 90 ms, so the next one is too early until that is over.
+TEST(LiveSettings, WhileATriggerWaitsTheLongestExposureOfTheSetsCounts) {
+    CameraModel camera;
+    camera.frame_rate_range_hz = {1, 50};
+    camera.exposure_s = 0.001;
+    LiveSettings settings(camera, {.triggered = true});
+    SequencerProgram program;
+    program.sets[0] = {.exposure_s = 0.002, .paths = {{{1, LineEvent::kFrameStart}}}};
+    program.sets[1].exposure_s = 0.09;
+    settings.sequencer()->start(program);
+    TriggerOrder order;
+    order.source = TriggerSource::kLine0;
+    order.at_monotonic_ns = monotonic_ns();
+    ASSERT_EQ(settings.trigger(order), TriggerResult::kTaken);
+    EXPECT_EQ(settings.trigger_ready_ns(), order.at_monotonic_ns + 90'000'000);
+    settings.change({.triggered = false});
+}
+
 // Highest rate 50 Hz, exposure 30 ms: with ReadOut the camera is ready 30 ms after a trigger, with Off 50 ms.
 TEST(LiveSettings, WithoutOverlapATriggerWaitsForTheReadout) {
     for (const TriggerOverlap overlap : {TriggerOverlap::kReadOut, TriggerOverlap::kOff}) {

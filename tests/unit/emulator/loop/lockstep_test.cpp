@@ -63,6 +63,39 @@ TEST_F(FrameLoopTest, LockstepGoesOnByTheFramePeriodAndNeverBack) {
     EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // nobody would answer
 }
 
+// Three exposures in turn: a frame's middle is the time of its command, whatever set it uses.
+TEST_F(FrameLoopTest, LockstepGivesEachFrameItsSetOfTheSequencerAndTheSameAtAnyPace) {
+    const auto file = scenario();
+    std::vector<std::vector<Collector::Frame>> runs;
+    for (const bool slowly : {false, true}) {
+        LoopRig rig(file, {}, {"mode=lockstep"});
+        SequencerProgram program;
+        for (std::uint8_t i = 0; i < 3; ++i) {
+            keep_in(program.sets[i], rig.settings.settings());
+            program.sets[i].exposure_s = 1e-3 * (1 << i);
+            program.sets[i].gain_db = i;
+            program.sets[i].paths[0] = {static_cast<std::uint8_t>((i + 1) % 3), LineEvent::kExposureEnd};
+        }
+        rig.settings.sequencer()->start(program);
+        rig.loop.start();
+        for (int i = 0; i < 5; ++i) {
+            EXPECT_EQ(rig.send(expose(rig.start + (i + 1) * 100'000'000)), CommandStatus::kAccepted);
+            if (slowly) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        ASSERT_TRUE(rig.collector.wait_for(5));
+        rig.loop.stop();
+        for (int i = 0; i < 5; ++i) {
+            const FrameRecord& r = rig.collector.frames[static_cast<std::size_t>(i)].record;
+            EXPECT_EQ(r.sequencer_set, i % 3);
+            EXPECT_EQ(r.exposure_s, 1e-3 * (1 << i % 3));
+            EXPECT_EQ(r.gain_db, i % 3);
+            EXPECT_EQ(r.exposure_mid, rig.start + (i + 1) * 100'000'000);
+        }
+        runs.push_back(std::move(rig.collector.frames));
+    }
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(runs[0][i].dn, runs[1][i].dn) << i;
+}
+
 // Frames that name no time go on from the one before; a time that these have passed is over.
 TEST_F(FrameLoopTest, LockstepNeverGoesBackBehindFramesWithoutATime) {
     LoopRig rig(scenario(", frame_rate_hz: 10", "mode: lockstep\n"), {});

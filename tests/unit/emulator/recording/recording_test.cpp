@@ -45,7 +45,7 @@ FrameUse some_use() {
     FrameUse use;
     use.id = 1'000'000'007, use.skipped = 3, use.late = true, use.reverse_y = true;
     use.test_pattern = TestPattern::kRampHorizontalMoving;
-    use.trigger_sequence = 77, use.quality_level = 5;
+    use.trigger_sequence = 77, use.quality_level = 5, use.sequencer_set = 3;
     use.begin_ns = 123456789, use.middle_ns = 123456790, use.end_ns = 123456792, use.exposure_mid = {-5};
     use.shown_at = {-6}, use.moving = 0.125, use.shutter_closed = true;
     use.exposure_s = 1.0 / 3, use.gain_db = -0.0, use.black_level_dn = 12.5;

@@ -30,8 +30,12 @@ TEST(RefusedSettings, NameTheValueWithItsLimits) {
 
 TEST(RefusedSettings, SayWhatAWidthDoesNotGoWith) {
     const SettingsChange width{.exposure_mode = ExposureMode::kTriggerWidth};
-    CameraSettings automatic, any_edge;
+    CameraSettings automatic, any_edge, level;
     automatic.automatic_exposure = true;
+    level.trigger_activation = TriggerActivation::kLevelLow;
+    EXPECT_EQ(
+        refusal(width, level),
+        "exposure_mode: trigger_width and trigger_activation level_high and level_low exclude each other");
     any_edge.trigger_activation = TriggerActivation::kAnyEdge;
     EXPECT_EQ(refusal(width, automatic),
               "exposure_mode: trigger_width and automatic_exposure exclude each other");
@@ -41,6 +45,8 @@ TEST(RefusedSettings, SayWhatAWidthDoesNotGoWith) {
     lockstep.lockstep = scanning.exposure_is_own = scanning.frame_rate_is_own = true;
     EXPECT_EQ(refusal(width, {}, lockstep),
               "exposure_mode: trigger_width needs real time, and this is lockstep");
+    EXPECT_EQ(refusal({.trigger_activation = TriggerActivation::kLevelHigh}, {}, lockstep),
+              "trigger_activation: level_high and level_low need real time, and this is lockstep");
     EXPECT_EQ(refusal(width, {}, scanning),
               "exposure_mode: trigger_width needs an exposure that the camera does not set itself");
     EXPECT_EQ(refusal({.trigger_overlap = TriggerOverlap::kOff}, {}, scanning),

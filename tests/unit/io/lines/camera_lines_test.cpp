@@ -55,6 +55,21 @@ TEST(CameraLines, AnEdgeToTheLevelThatTheWireHasIsNone) {
     EXPECT_FALSE(w.edge(200, true, 40));
 }
 
+// Edges with times to come: the level from 200 to 2200 us, at 1000 frames a second.
+TEST(CameraLines, FramesOfALevelBeginAtTheirInstantsHoweverLateTheTickIs) {
+    Wires w;
+    w.camera.s.trigger_activation = TriggerActivation::kLevelHigh;
+    w.camera.s.frame_rate_hz = 1000;
+    w.edge(0, true, 200, 100);
+    w.edge(0, false, 2200, 100);
+    w.tick(5000);
+    ASSERT_EQ(w.camera.orders.size(), 2u);
+    EXPECT_EQ(w.camera.orders[0].at_monotonic_ns, 200 * kMicrosecond_ns);
+    EXPECT_EQ(w.camera.orders[1].at_monotonic_ns, 1200 * kMicrosecond_ns);
+    // From then on settings may begin a level without an edge.
+    EXPECT_EQ(w.lines.wake_ns(), 10'000 * kMicrosecond_ns);
+}
+
 TEST(CameraLines, AnEdgeToComeCountsAtItsTime) {
     Wires w;
     EXPECT_TRUE(w.edge(0, false, 300, 100));
@@ -123,7 +138,7 @@ TEST(CameraLines, AnExposureThatATriggerTellsIsShownBeforeTheLoopHasIt) {
     Wires w;
     w.set([](LineSettings& s) { s.source[1] = LineSignal::kExposureActive; });
     const auto told = [&](std::int64_t begin_us, std::int64_t end_us) {
-        w.lines.post({LineEvent::kExposureStart, begin_us * kMicrosecond_ns, end_us * kMicrosecond_ns, true});
+        w.exposure(begin_us, end_us);
     };
     told(500, 600);
     told(200, 300);
@@ -148,6 +163,19 @@ TEST(CameraLines, AnExposureThatATriggerTellsIsShownBeforeTheLoopHasIt) {
     w.exposure(1100, 1150);  // of another frame
     w.tick(1200);
     EXPECT_EQ(w.out(), (Edges{{1, 1, 1100}, {1, 0, 1150}}));
+}
+
+// The loop may be quicker than the thread that takes the trigger and tells of its exposure.
+TEST(CameraLines, AnExposureThatIsPostedTwiceIsOneFrame) {
+    Wires w;
+    w.set([](LineSettings& s) { s.counters[0].event = LineEvent::kFrameStart; });
+    w.exposure(200, 320);  // the loop's
+    w.tick(250);
+    w.exposure(200, 300);  // the trigger's
+    w.exposure(500, 600);
+    w.exposure(500, 600);
+    w.tick(1000);
+    EXPECT_EQ(w.lines.counter(0).value(), 2u);
 }
 
 TEST(CameraLines, ARollingShuttersExposuresThatOverlapAreOnePulse) {

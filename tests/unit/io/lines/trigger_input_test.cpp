@@ -60,6 +60,65 @@ TEST(TriggerInput, TheDividerTakesTheLastOfSoManyEdges) {
     EXPECT_EQ(in.times_us(), (Times{200, 500, 1100}));
 }
 
+// 30 frames a second, each a period after the one before; none at the instant at which the level ends.
+TEST(TriggerInput, FramesFollowOneAnotherWhileALevelHolds) {
+    for (const bool high : {true, false}) {
+        Input in;
+        in.camera.s.trigger_activation = high ? TriggerActivation::kLevelHigh : TriggerActivation::kLevelLow;
+        in.camera.s.frame_rate_hz = 1000;
+        in.camera.s.trigger_divider = 3;  // counts edges, and there are none between frames
+        in.edge(high, 500);
+        EXPECT_TRUE(in.times_us().empty());
+        while (in.input.wake_ns() < 3500 * kMicrosecond_ns) in.input.tick(in.input.wake_ns());
+        EXPECT_EQ(in.times_us(), (Times{500, 1500, 2500}));
+        EXPECT_EQ(in.camera.orders[2].sequence, 1u);  // the edge's that began the level
+        in.edge(!high, 3500);
+        EXPECT_EQ(in.input.wake_ns(), CameraControl::kNeverReady_ns);
+    }
+}
+
+TEST(TriggerInput, ALevelWaitsForTheCameraAndMissesNothing) {
+    Input in;
+    in.camera.s.trigger_activation = TriggerActivation::kLevelHigh;
+    in.camera.ready_ns = 700 * kMicrosecond_ns;
+    in.edge(true, 500);
+    in.input.tick(500 * kMicrosecond_ns);
+    EXPECT_TRUE(in.camera.orders.empty());
+    in.input.tick(in.input.wake_ns());
+    EXPECT_EQ(in.times_us(), (Times{700}));
+}
+
+TEST(TriggerInput, ALevelThatHeldBeforeTheCameraListenedCounts) {
+    Input in;
+    std::array<bool, kLines> levels{};
+    levels[2] = true;
+    in.input.follow(levels, 100 * kMicrosecond_ns);
+    EXPECT_FALSE(in.input.watches_level());
+    in.camera.s.trigger_activation = TriggerActivation::kLevelHigh;
+    in.input.follow(levels, 200 * kMicrosecond_ns);  // Line0 is low
+    EXPECT_TRUE(in.input.watches_level());
+    EXPECT_EQ(in.input.wake_ns(), CameraControl::kNeverReady_ns);
+    in.camera.s.trigger_source = TriggerSource::kLine2;
+    in.input.follow(levels, 300 * kMicrosecond_ns);
+    in.input.tick(300 * kMicrosecond_ns);
+    EXPECT_EQ(in.times_us(), (Times{300}));
+    in.camera.s.triggered = false;
+    in.input.follow(levels, 400 * kMicrosecond_ns);
+    EXPECT_EQ(in.input.wake_ns(), CameraControl::kNeverReady_ns);
+}
+
+TEST(TriggerInput, AnExposePulseIsOneFrameOfAHighLevelAndNoneOfALowOne) {
+    Input in;
+    TriggerOrder order;
+    order.source = TriggerSource::kLine0;
+    in.camera.s.trigger_activation = TriggerActivation::kLevelHigh;
+    EXPECT_EQ(in.input.pulse(order), TriggerResult::kTaken);
+    EXPECT_EQ(in.camera.orders.size(), 1u);
+    in.camera.s.trigger_activation = TriggerActivation::kLevelLow;
+    EXPECT_EQ(in.input.pulse(order), TriggerResult::kTaken);
+    EXPECT_EQ(in.camera.orders.size(), 1u);
+}
+
 TEST(TriggerInput, OtherLinesAndOtherSourcesDoNotTrigger) {
     Input in;
     in.edge(true, 0, 2);

@@ -116,6 +116,12 @@ TEST_P(GenicamOf, ElementsAreClosedInTheirOrder) {
     EXPECT_TRUE(open.empty());
 }
 
+// The sequencer's sets are written in its configuration mode.
+void unlock(GigeBench& b, const Feature& f) {
+    const bool configures = f.lock == "SequencerIsNotConfigured";
+    EXPECT_EQ(b.write(feature_register::kSequencerConfigurationMode, configures), gvcp::kSuccess);
+}
+
 TEST_P(GenicamOf, RegistersAreWhatTheFeaturesSay) {
     const CameraLimits l = limits();
     GigeBench b(&l);
@@ -123,6 +129,7 @@ TEST_P(GenicamOf, RegistersAreWhatTheFeaturesSay) {
     for (const Feature& f : gige_features(l, true).features) {
         if (f.is_constant || f.port != "Device") continue;
         SCOPED_TRACE(f.name);
+        unlock(b, f);
         const auto now = b.read_memory(f.address, static_cast<std::uint16_t>(f.bytes));
         ASSERT_EQ(now.status, gvcp::kSuccess);
         if (f.kind == Feature::Kind::kCommand || f.access == Feature::Access::kWrite) continue;
@@ -160,6 +167,7 @@ TEST_P(GenicamOf, EveryCommandCanBeExecutedAsClientsDo) {
         b.open_stream();
         if (f.name == "UserSetSave")
             b.write(feature_register::kUserSetSelector, 1);  // the default is read only
+        unlock(b, f);
         EXPECT_EQ(b.write(f.address, with_part(b, f, 1)), gvcp::kSuccess);
         // "Done" is when the command's own value is not there any more.
         EXPECT_NE(b.read(f.address) >> std::max(0, f.low_bit) & 1, 1u);
@@ -199,6 +207,7 @@ TEST_P(GenicamOf, NumbersOutsideTheirBoundsAreRefused) {
         SCOPED_TRACE(f.name);
         GigeBench b(&l);
         b.take_control();
+        unlock(b, f);
         const auto write = [&](double value) {
             return f.kind == Feature::Kind::kFloat ? b.write_real(f.address, value)
                    : f.bytes == 8                  ? b.write64(f.address, static_cast<std::uint64_t>(value))
@@ -231,6 +240,7 @@ TEST_P(GenicamOf, EnumerationsAcceptTheirEntriesAndNothingElse) {
         plan.is_there[1] = plan.is_output[1] = true;
         GigeBench b(&l, {}, ClockSource::kTai, false, plan);
         b.take_control();
+        unlock(b, f);
         // Signals are for outputs, and the wiring says what a line is.
         EXPECT_EQ(b.write(feature_register::kLineSelector, GigeLines::kFirstOwn + 1), gvcp::kSuccess);
         for (const EnumEntry& entry : f.entries) {

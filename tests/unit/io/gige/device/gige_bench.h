@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 #include "io/gige/device/gige_device.h"
@@ -27,12 +28,15 @@ class PlainCamera : public CameraControl {
                    .max_frame_rate_hz = 200,
                    .max_binning = 4,
                    .has_automatic_exposure = true,
-                   .reversible = true};
+                   .reversible = true,
+                   .has_sequencer = true};
     std::vector<TriggerOrder> triggers;
     TriggerResult trigger_result = TriggerResult::kTaken;
+    std::shared_ptr<Sequencer> own_sequencer = std::make_shared<Sequencer>();  // shared: cameras are copied
 
     CameraSettings settings() const override { return s; }
     CameraLimits limits() const override { return l; }
+    Sequencer* sequencer() override { return l.has_sequencer ? own_sequencer.get() : nullptr; }
     bool change(const SettingsChange& c) override {
         const auto within = [](const auto& value, double least, double most) {
             return !value || (static_cast<double>(*value) >= least && static_cast<double>(*value) <= most);

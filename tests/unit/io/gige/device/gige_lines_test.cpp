@@ -36,7 +36,9 @@ TEST(GigeLines, TheTriggersEdgeDividerAndOverlapAreTheCameras) {
     EXPECT_EQ(b.read(reg::kTriggerOverlap), 1u);  // ReadOut
     EXPECT_EQ(b.write(reg::kTriggerActivation, 2), gvcp::kSuccess);
     EXPECT_EQ(b.camera.s.trigger_activation, TriggerActivation::kAnyEdge);
-    EXPECT_EQ(b.write(reg::kTriggerActivation, 3), gvcp::kInvalidParameter);
+    EXPECT_EQ(b.write(reg::kTriggerActivation, 4), gvcp::kSuccess);
+    EXPECT_EQ(b.camera.s.trigger_activation, TriggerActivation::kLevelLow);
+    EXPECT_EQ(b.write(reg::kTriggerActivation, 5), gvcp::kInvalidParameter);
     EXPECT_EQ(b.write(reg::kTriggerDivider, 5), gvcp::kSuccess);
     EXPECT_EQ(b.camera.s.trigger_divider, 5);
     EXPECT_EQ(b.write(reg::kTriggerDivider, 0), gvcp::kInvalidParameter);
@@ -214,7 +216,9 @@ TEST(GigeLines, TheDescriptionHasTheLinesThatAreThere) {
     using testing::ElementsAre;
     EXPECT_THAT(entries("LineSelector"), ElementsAre("Line0", "Trigger", "Line1", "Line2", "Line3"));
     EXPECT_THAT(entries("TriggerSource"), ElementsAre("Software", "Line0", "Action1", "Trigger", "Line2"));
-    EXPECT_THAT(entries("TriggerActivation"), ElementsAre("RisingEdge", "FallingEdge", "AnyEdge"));
+    EXPECT_THAT(entries("TriggerActivation"),
+                ElementsAre("RisingEdge", "FallingEdge", "AnyEdge", "LevelHigh", "LevelLow"));
+    EXPECT_THAT(entries("CounterEventActivation"), ElementsAre("RisingEdge", "FallingEdge", "AnyEdge"));
     const auto events = entries("CounterEventSource");
     EXPECT_THAT(events, testing::Contains("Line2"));
     EXPECT_THAT(events, testing::Not(testing::Contains("Line1")));

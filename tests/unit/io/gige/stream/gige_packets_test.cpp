@@ -139,6 +139,7 @@ TEST(GigePackets, ChunksAreFoundFromTheEnd) {
     record.pose_time.ns = 1'000'000'007;
     record.trigger_sequence = 9;
     record.faults = 0x8000000000000001;
+    record.sequencer_set = 5;
     GigeStreamState s = stream_of(60, 40);
     s.offset_x = 2, s.offset_y = 4;
     s.chunk_mode = true;
@@ -158,7 +159,8 @@ TEST(GigePackets, ChunksAreFoundFromTheEnd) {
                                                  1'000'000'007,
                                                  static_cast<std::uint64_t>(-5),
                                                  9,
-                                                 0x8000000000000001};
+                                                 0x8000000000000001,
+                                                 5};
     const Built b(s, record);
     std::size_t end = b.payload.size();
     for (int i = kChunks; i-- > -1;) {
@@ -253,7 +255,7 @@ TEST(GigePackets, APixelAtFullScaleIsNotBelieved) {
 
 TEST(GigePackets, TheLargestPayloadHoldsEveryFormatAndAllChunks) {
     // Image tail; 8 chunks of 8 bytes and 7 of 4, each with its id and length.
-    constexpr std::size_t kAllChunks = 8 + 8 * 16 + 7 * 12;
+    constexpr std::size_t kAllChunks = 8 + 8 * 16 + 8 * 12;
     EXPECT_EQ(max_payload_bytes(101, 51, "", false), 3u * 101 * 51 + kAllChunks);
     EXPECT_EQ(max_payload_bytes(101, 51, "RGGB", false), 3u * 101 * 51 + kAllChunks);
     EXPECT_EQ(max_payload_bytes(101, 51, "", true), 4u * 101 * 51 + kAllChunks);
