@@ -28,7 +28,7 @@ FRAMES = 1000
 SIDE = 64
 APID = 272
 SMALL = (f"camera.width_px={SIDE}", f"camera.height_px={SIDE}", "camera.focal_length_mm=0.7", "objects.0.generate.triangles=5000",
-         "camera.frame_rate_hz=400")
+         "camera.frame_rate_hz=400", "camera.frame_rate_range_hz=[1, 1000]")
 LIBRARIES = {"ccsds_121": "libaec.so.0", "jpeg_ls": "libcharls.so.2", "jpeg_2000": "libopenjp2.so.7"}
 
 
@@ -233,9 +233,10 @@ class Transports(Case):
 
     @staticmethod
     def connecting(family, where):
-        """Connects as soon as hilcam listens. It makes no frame before, as it waits for the first `expose` or is given time."""
+        """Connects as soon as hilcam listens."""
         def connect():
-            while True:
+            end = time.monotonic() + 60
+            while time.monotonic() < end:
                 s = socket.socket(family, socket.SOCK_STREAM)
                 try:
                     s.connect(where)
@@ -243,6 +244,7 @@ class Transports(Case):
                 except (ConnectionRefusedError, FileNotFoundError):
                     s.close()
                     time.sleep(0.0005)
+            raise TimeoutError("nobody listens")
         return connect
 
     def test_tcp_to_a_listener(self):
@@ -301,7 +303,7 @@ class Transports(Case):
     def test_spacewire_rmap(self):
         port = free_port()
         cargo, _ = self.collect(self.listening(socket.AF_INET, ("127.0.0.1", port)), "transport=tcp", f"port={port}",
-                                "spacewire={protocol: rmap, target: 69, key: 32, initiator: 103, address: 0xA0000000, slots: 4, slot_bytes: 2048}")
+                                "spacewire={protocol: rmap, target: 69, key: 32, initiator: 103, address: 2684354560, slots: 4, slot_bytes: 2048}")
         writes = [r.parse_rmap_write(packet) for packet in cargo]
         for i, write in enumerate(writes):
             self.assertEqual((write.target, write.instruction, write.key, write.initiator), (69, 0x64, 32, 103))
