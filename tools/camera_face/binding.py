@@ -349,6 +349,7 @@ class Binder:
                 static = terminal is None
                 if static:
                     terminal = self._mover((which, name))
+                    static = len({use for use in self.ev.uses((which, name)) if use[1]}) > 1
                 if terminal is None or self._bits(terminal) & self.live or terminal in self.bound:
                     continue
                 get = lambda: forward(getattr(self.ev, which)(name))  # noqa: E731

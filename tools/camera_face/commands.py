@@ -105,7 +105,8 @@ def summary(binder, filler, features, wrong, layout):
              f"{len(readable)} readable ones are available",
              f"  hilcam acts on {len(acted_on)}: {', '.join(acted_on)}"]
     names = {role.feature: role.names for role in ROLES}
-    absent = [f for f in names if f not in acted_on and any(name in binder.ev.nodes for name in names[f])]
+    # Aravis and others keep TLParamsLocked themselves.
+    absent = [f for f in names if f not in acted_on and f != "TLParamsLocked" and any(name in binder.ev.nodes for name in names[f])]
     if absent:
         lines.append(f"  in the description, but in no register that moves them: {', '.join(absent)}")
     sensor = [binder.ev.value(n) if n in binder.ev.nodes else None for n in ("SensorWidth", "SensorHeight")]

@@ -21,7 +21,8 @@ class Filler:
     def __init__(self, evaluator, held, bound, camera):
         self.ev, self.held, self.bound, self.camera = evaluator, held, bound, camera
         self.demands = {}  # word: numbers of demands that depend on it
-        self.checks = []
+        self.checks, self.whats = [], []
+        self.mending = False
         self.constants = self._constants()
         self.undo = []  # (address, bytes before), oldest first
 
@@ -204,6 +205,7 @@ class Filler:
     def _keep(self, check, whats):
         number = len(self.checks)
         self.checks.append(check)
+        self.whats.append(whats)
         for address, length, _ in self.ev.uses(*whats):
             for word in range(address >> 2, address + length + 3 >> 2) if length else ():
                 self.demands.setdefault(word, set()).add(number)
@@ -219,6 +221,8 @@ class Filler:
             if any(self._try([(register, lambda r=register, v=value: self.ev.set(r, v))], check, whats)
                    for value in self._values(register, numbers)):
                 return True
+        if self._mended(registers, check, whats, numbers):
+            return self._keep(check, whats)
         tries = 0
         for first, second in itertools.combinations(registers, 2):
             for a, b in itertools.product(self._values(first, numbers)[:8], self._values(second, numbers)[:8]):
@@ -228,6 +232,36 @@ class Filler:
                 if self._try([(first, lambda: self.ev.set(first, a)), (second, lambda: self.ev.set(second, b))], check, whats):
                     return True
         return False
+
+    def _mended(self, registers, check, whats, numbers):
+        """Tries numbers that break an earlier demand, and meets that one again by another register."""
+        if self.mending:
+            return False
+        self.mending, kept = True, self.held
+        try:
+            for register in registers:
+                words = self._words(register)
+                for value in self._values(register, numbers)[:6]:
+                    mark = len(self.undo)
+                    before = (self.ev.address(register), self.ev.raw(register))
+                    self.ev.set(register, value)
+                    self.undo.append(before)
+                    self.held = kept | self.ev.bits_in_memory(register)
+                    broken = [n for n in self._depending(words) if not self._is(self.checks[n])]
+                    if self._is(check) and len(broken) <= 3 and \
+                            all(self._demand(self.checks[n], self.whats[n], LARGE) for n in broken) and self._is(check):
+                        return True
+                    self.held = kept
+                    while len(self.undo) > mark:
+                        self.ev.write_memory(*self.undo.pop())
+        except WRONG:
+            pass
+        finally:
+            self.mending, self.held = False, kept
+        return False
+
+    def _depending(self, words):
+        return set().union(*(self.demands.get(word, set()) for word in words))
 
     def _open(self, check, whats, numbers):
         """A formula that fails shows its next register only when the one that it fails at has a number that it takes."""
@@ -286,8 +320,7 @@ class Filler:
                 before.append((self.ev.address(register), self.ev.raw(register)))
                 words |= self._words(register)
                 write()
-            if self._is(check) and all(self._is(self.checks[n])
-                                       for n in set().union(*(self.demands.get(w, set()) for w in words))):
+            if self._is(check) and all(self._is(self.checks[n]) for n in self._depending(words)):
                 if keep:
                     self._keep(check, whats)
                 self.undo += before

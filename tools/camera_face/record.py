@@ -1,5 +1,7 @@
 """Reads every register of a real camera into a registers file, with Aravis."""
 import pathlib
+import re
+import socket
 import sys
 
 from .binding import REFUSED
@@ -7,7 +9,6 @@ from .description import REGISTERS, Description, DescriptionError
 from .evaluator import Evaluator
 from .registers import Memory, write_file
 
-PIECE = 512
 MOST_STATES = 64
 
 
@@ -21,38 +22,42 @@ class DeviceMemory(Memory):
 
     def read(self, address, count):
         begin, end = address & ~3, address + count + 3 & ~3
-        missing = [word for word in range(begin >> 2, end >> 2) if word not in self.came and word not in self.failed]
-        if missing:
-            for at in range(begin, end, PIECE):
-                self._fetch(at, min(PIECE, end - at))
+        for word in range(begin >> 2, end >> 2):
+            if word not in self.came and word not in self.failed:
+                self._fetch(word)
         return super().read(address, count)
 
-    def _fetch(self, address, count):
-        words = range(address >> 2, address + count >> 2)
+    def _fetch(self, word):
         try:
-            if count == 4:
-                data = self.device.read_register(address).to_bytes(4, "big")
-            else:
-                data = bytes(self.device.read_memory(address, count))
+            value = self.device.read_register(4 * word)
         except Exception as error:  # GLib.Error of PyGObject
-            for word in words:
-                self.failed[word] = str(error).splitlines()[0]
+            self.failed[word] = str(error).splitlines()[0]
             return
-        super().write(address, data)
-        self.came.update(words)
+        super().write(4 * word, (value & 0xFFFFFFFF).to_bytes(4, "big"))
+        self.came.add(word)
 
 
 def open_device(address):
     try:
         import gi
         gi.require_version("Aravis", "0.8")
-        from gi.repository import Aravis, GLib
+        from gi.repository import Aravis, Gio, GLib
     except (ImportError, ValueError):
         sys.exit("hilcam-camera-face: Aravis is missing; install gir1.2-aravis-0.8 and python3-gi, and use /usr/bin/python3")
     try:
+        if re.fullmatch(r"\d+(\.\d+){3}", address):  # also where no broadcast reaches it
+            near = Gio.InetAddress.new_from_string(own_address(address))
+            return Aravis.GvDevice.new(near, Gio.InetAddress.new_from_string(address))
         return Aravis.Camera.new(address).get_device()
     except GLib.Error as error:
         raise DescriptionError(f"{address}: no camera: {error.message}") from None
+
+
+def own_address(address):
+    """Returns the address of this machine from which that one is reached."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.connect((address, 3956))
+        return probe.getsockname()[0]
 
 
 def record(address, out):
