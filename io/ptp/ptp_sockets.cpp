@@ -127,14 +127,14 @@ bool receive_with_stamp(int socket, int flags, Received& r) {
 }
 
 // A card's second address may have a name of its own, as eth0:1; only the card matters.
-int number_of(const NetInterface& net) {
+int index_of_interface(const NetInterface& net) {
     return static_cast<int>(if_nametoindex(net.name.substr(0, net.name.find(':')).c_str()));
 }
 
 }  // namespace
 
 PtpSockets::PtpSockets(const NetInterface& net, PtpTransport transport)
-    : transport_(transport), interface_number_(number_of(net)) {
+    : transport_(transport), interface_number_(index_of_interface(net)) {
     if (interface_number_ == 0) refuse_socket("PTP on " + net.name, "");
     if (transport == PtpTransport::kUdp)
         open_udp_sockets(net);
