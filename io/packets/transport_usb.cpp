@@ -52,9 +52,9 @@ class UsbTransport : public PacketTransport {
     }
     bool begin_frame(std::uint64_t) override {
         waiting_.clear();
-        lost_ = false;
         take_events();
         take_ended();
+        lost_ = false;  // what ended was of earlier frames
         if (enabled_ && given_up_ && in_flight() == 0) given_up_ = false;
         return enabled_ && !given_up_;
     }
