@@ -12,11 +12,12 @@ namespace {
 
 constexpr std::size_t kPieceBytes = 64 * 1024;
 
-std::string seconds(int ms) {
-    return ms % 1000 == 0 ? std::to_string(ms / 1000) + " s" : std::to_string(ms) + " ms";
-}
-
 }  // namespace
+
+std::string has_read_nothing_for(int ms) {
+    return "has read nothing for " +
+           (ms % 1000 == 0 ? std::to_string(ms / 1000) + " s" : std::to_string(ms) + " ms");
+}
 
 bool PacketStreamPeer::send(std::span<const std::uint8_t> bytes) {
     waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
@@ -47,7 +48,7 @@ bool PacketStreamPeer::wait_for_room() {
     do ready = poll(&watched, 1, patience_ms_);
     while (ready < 0 && errno == EINTR);
     if (ready > 0) return true;
-    reason_ = "has read nothing for " + seconds(patience_ms_) + " and is disconnected";
+    reason_ = has_read_nothing_for(patience_ms_) + " and is disconnected";
     return false;
 }
 

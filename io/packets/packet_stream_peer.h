@@ -11,6 +11,9 @@
 
 namespace hilcam {
 
+// Returns "has read nothing for 5 s".
+std::string has_read_nothing_for(int ms);
+
 class PacketStreamPeer {
   public:
     // socket: connected, non-blocking.

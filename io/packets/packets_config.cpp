@@ -43,7 +43,7 @@ Fields transport_fields(PacketsConfig& c) {
                "unix_server: clients connect to hilcam; usb: bulk transfers to a host, by FunctionFS; file: "
                "one file of all packets; files: one file a frame"),
         addressed(c, text("address", c.address,
-                          "IPv4 address of the receiver; tcp_server: of this machine, to listen on")),
+                          "IPv4 address of the receiver; tcp_server: the own address to listen on")),
         addressed(c, integer("port", c.port, {1, 65535}, "UDP or TCP port there")),
         only(
             c, &PacketsConfig::is_tcp_server, "transport tcp_server",

@@ -14,6 +14,7 @@
 
 #include "io/commands/functionfs_descriptors.h"
 #include "io/commands/linux_aio.h"
+#include "io/packets/packet_stream_peer.h"
 #include "io/packets/packet_transport.h"
 #include "io/packets/packets_config.h"
 #include "io/system/fd.h"
@@ -51,9 +52,9 @@ class UsbTransport : public PacketTransport {
     }
     bool begin_frame(std::uint64_t) override {
         waiting_.clear();
-        lost_ = false;
         take_events();
         take_ended();
+        lost_ = false;  // what ended was of earlier frames
         if (enabled_ && given_up_ && in_flight() == 0) given_up_ = false;
         return enabled_ && !given_up_;
     }
@@ -118,7 +119,7 @@ class UsbTransport : public PacketTransport {
                 if (!write.in_flight) return &write;
             if (wait_for_end()) continue;
             given_up_ = true;
-            lose("has read nothing for " + std::to_string(patience_ms_) + " ms");
+            lose(has_read_nothing_for(patience_ms_));
             return nullptr;
         }
     }

@@ -4,8 +4,8 @@ import ctypes
 import sys
 import time
 
-VENDOR, PRODUCT, IN_ENDPOINT, TRANSFER_BYTES = 0x1209, 0x0003, None, 16384
-TIMEOUT, NO_DEVICE = -7, -4
+VENDOR, PRODUCT, TRANSFER_BYTES = 0x1209, 0x0003, 16384
+TIMEOUT = -7  # LIBUSB_ERROR_TIMEOUT
 usb = ctypes.CDLL("libusb-1.0.so.0")
 usb.libusb_open_device_with_vid_pid.restype = ctypes.c_void_p
 usb.libusb_open_device_with_vid_pid.argtypes = [ctypes.c_void_p, ctypes.c_uint16, ctypes.c_uint16]
@@ -41,12 +41,13 @@ def in_endpoint(handle):
 
 
 def main():
-    assert usb.libusb_init(None) == 0
     handle = None
     for _ in range(300):
+        assert usb.libusb_init(None) == 0  # anew: without udev, what is plugged in later is not seen
         handle = usb.libusb_open_device_with_vid_pid(None, VENDOR, PRODUCT)
         if handle:
             break
+        usb.libusb_exit(None)
         time.sleep(0.1)
     if not handle:
         sys.exit("usb_packets_host: no device")

@@ -43,7 +43,7 @@ class Installed(unittest.TestCase):
                      "share/hilcam/camera_face/binding.py", "share/hilcam/schema/campaign.schema.json",
                      "share/doc/hilcam/tools/python/hilcam/client.py",
                      "share/hilcam/scenarios/small.yaml", "share/hilcam/stars/hipparcos.csv", "share/hilcam/maps/earth_albedo.png",
-                     "share/hilcam/schema/scenario.schema.json", "share/hilcam/client/hilcam_client.py",
+                     "share/hilcam/schema/scenario.schema.json", "share/hilcam/client/hilcam_client.py", "share/hilcam/client/hilcam_read_packets.py",
                      "share/doc/hilcam/tools/client/hilcam_client.py", "share/doc/hilcam/tools/client/hilcam_client.h",
                      "share/doc/hilcam/tools/flight_software_example/main.cpp",
                      "share/doc/hilcam/tools/landing_example/main.cpp", "share/doc/hilcam/tools/flight_software_glue/camera_link.c",

@@ -15,15 +15,18 @@ As a module: Reader.take(bytes) gives frames from packets; packets_of_stream() a
 """
 import argparse
 import array
+import binascii
 import ctypes
 import dataclasses
 import os
 import pathlib
+import queue
 import select
 import socket
 import struct
 import sys
 import tempfile
+import threading
 import time
 
 RAW_LE, RAW_BE, PACKED, CCSDS_121, JPEG_LS, JPEG_2000 = range(6)
@@ -40,16 +43,6 @@ class BadPacket(ValueError):
     """Bytes that are no packet of a frame; its text says why."""
 
 
-def _crc16_table():
-    table = []
-    for byte in range(256):
-        value = byte << 8
-        for _ in range(8):
-            value = (value << 1 ^ 0x1021 if value & 0x8000 else value << 1) & 0xFFFF
-        table.append(value)
-    return table
-
-
 def _crc8_table():
     table = []
     for value in range(256):
@@ -59,15 +52,12 @@ def _crc8_table():
     return table
 
 
-_CRC16, _CRC8 = _crc16_table(), _crc8_table()
+_CRC8 = _crc8_table()
 
 
 def crc16(data):
     """CRC-16 of CCSDS 132.0-B-3, 4.1.6: x^16 + x^12 + x^5 + 1 from 0xFFFF."""
-    crc = 0xFFFF
-    for byte in data:
-        crc = (crc << 8 & 0xFF00) ^ _CRC16[crc >> 8 ^ byte]
-    return crc
+    return binascii.crc_hqx(data, 0xFFFF)
 
 
 def crc8(data):
@@ -527,8 +517,14 @@ def pieces(source, idle_s):
         s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         s.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 24)
         s.bind(_address(where))
-        while select.select([s], [], [], idle_s)[0]:
-            yield s.recv(65535), True
+        arrived = queue.SimpleQueue()
+        # A thread of its own empties the kernel's buffer, which overflows while a picture is decoded.
+        threading.Thread(target=lambda: [arrived.put(s.recv(65535)) for _ in iter(int, 1)], daemon=True).start()
+        try:
+            while True:
+                yield arrived.get(timeout=idle_s), True
+        except queue.Empty:
+            return
     elif kind in ("tcp", "tcp-listen", "unix", "unix-listen"):
         s = _stream_socket(kind, where)
         while select.select([s], [], [], idle_s)[0]:

@@ -35,7 +35,8 @@ install(FILES tools/packaging/systemd/hilcam@.service DESTINATION lib/systemd/sy
 # What clients in C and plug-ins include: -I PREFIX/include/hilcam.
 install(FILES tools/client/hilcam_client.h tools/client/hilcam_shm.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program)
 install(DIRECTORY render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program FILES_MATCHING PATTERN "*.h")
-install(FILES tools/client/hilcam_client.py tools/client/hilcam_read_packets.py DESTINATION ${data}/client COMPONENT program)
+install(FILES tools/client/hilcam_client.py DESTINATION ${data}/client COMPONENT program)
+install(PROGRAMS tools/client/hilcam_read_packets.py DESTINATION ${data}/client COMPONENT program)
 install(FILES README.md CONTRIBUTING.md NOTICE CITATION.cff SECURITY.md DESTINATION ${doc} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${doc} COMPONENT program)
 install(FILES tools/client/README.md DESTINATION ${doc}/tools/client COMPONENT program)
