@@ -32,7 +32,7 @@ struct Ip42Config {
     double hold_s = 10;
     std::int64_t steps_per_frame = 1;
     std::vector<double> pole_rad{};  // right ascension and declination; empty: ICRF axes
-    double tolerance_rad = 0.1 * kDegree_rad;
+    double tolerance_rad = kDegree_rad;
     bool stay = true;
     std::vector<Ip42BodyConfig> bodies{};
 };

@@ -26,8 +26,8 @@ Fields fields(Ip42Config& c) {
                 "right ascension and declination of the pole of 42's frame N at another world than the "
                 "Earth; left out: N has ICRF axes"),
         number("tolerance_deg", c.tolerance_rad, kDegree_rad, {0, 180},
-               "angle above which a remark is made: of 42's Sun to the scenario's, and of a body to a turn "
-               "about its joint's axis"),
+               "angle above which a remark is made, between 42's Sun and the scenario's, and between a body "
+               "and a turn about its joint's axis"),
         flag("stay", c.stay,
              "treatment of 42's end. true: the program continues and waits for 42 again; false: it ends"),
         sections("bodies", c.bodies, "table of bodies of 42 and the things that they move"),

@@ -99,9 +99,10 @@ class Hilcam:
         assert self.process.wait(60) == 0, self.log_file.read_text()
         return json.loads(self.report_file.read_text())
 
-    def said(self, kind="warning"):
-        lines = [line for line in self.log_file.read_text().splitlines() if "ip42: " in line and kind in line]
-        return [line.split("ip42: ", 1)[1] for line in lines]
+    def said(self):
+        """What is wrong, without who is connected and how many lines are not used."""
+        lines = [line.split("ip42: ", 1)[1] for line in self.log_file.read_text().splitlines() if "ip42: " in line]
+        return [line for line in lines if "is connected" not in line and "lines of each step" not in line]
 
     def picture(self, number):
         return numpy.array(Image.open(self.folder / "frames" / f"frame_{number:08}.png"))
@@ -210,7 +211,8 @@ class Connection(unittest.TestCase):
     def test_hilcam_asks_until_42_listens(self):
         """42 as SERVER: it takes one peer, and is started after hilcam."""
         with tempfile.TemporaryDirectory() as folder, Hilcam(folder, "commands.ip42.role=client") as hilcam:
-            time.sleep(0.5)
+            while not hilcam.said():
+                time.sleep(0.05)
             for run in range(2):
                 speaker = Speaker(hilcam.port, serves=True)
                 speaker.step(message(run))
@@ -219,7 +221,7 @@ class Connection(unittest.TestCase):
                 time.sleep(0.05)
             report = hilcam.stop()
             self.assertEqual(figures(report)[0], 2)
-            refused, first, second = hilcam.said()[:3]
+            refused, first, second = hilcam.said()
             self.assertIn("42 does not answer at 127.0.0.1", refused)
             for gone in (first, second):
                 self.assertEqual(gone, "42 went away after 1 steps; it is waited for")
@@ -260,24 +262,24 @@ class Hold(unittest.TestCase):
     def test_42_waits_for_the_frame_and_no_longer_than_it_is_told(self):
         """A camera that is far too slow for it: every step is answered in time, and what has no frame is counted."""
         slow = ("quality.samples_per_axis=8", "camera.width_px=1600", "camera.height_px=1200")
-        with tempfile.TemporaryDirectory() as folder, Hilcam(folder, *slow, "commands.ip42.hold_ms=100") as hilcam:
+        with tempfile.TemporaryDirectory() as folder, Hilcam(folder, *slow, "commands.ip42.hold_ms=30") as hilcam:
             speaker = hilcam.connect()
             held = [speaker.step(message(0.1 * k)) for k in range(12)]
             # Until the last frame is done.
             time.sleep(2)
             report = hilcam.stop()
             frames, own = figures(report)
-            self.assertLess(max(held), 0.1 + 0.15)  # 150 ms for a busy machine
+            self.assertLess(max(held), 0.03 + 0.15)  # 150 ms for a busy machine
             self.assertGreaterEqual(own["late_frames"], 1)
             self.assertGreaterEqual(own["dropped_steps"], 1)
             self.assertEqual(frames + own["dropped_steps"], 12)
             self.assertEqual(report["commands"]["refused"], own["dropped_steps"])
             said = hilcam.said()
-            self.assertEqual(len([line for line in said if line.startswith("a frame was not done within 100 ms")]), 1, said)
+            self.assertEqual(len([line for line in said if line.startswith("a frame was not done within 30 ms")]), 1, said)
             self.assertEqual(len([line for line in said if line.startswith("a step has no frame")]), 1, said)
 
     def test_the_frame_is_done_when_42_goes_on(self):
-        with tempfile.TemporaryDirectory() as folder, Hilcam(folder, "outputs.files.when_full=wait") as hilcam:
+        with tempfile.TemporaryDirectory() as folder, Hilcam(folder) as hilcam:
             speaker = hilcam.connect()
             held = [speaker.step(message(0.1 * k)) for k in range(20)]
             report = hilcam.stop()
@@ -346,4 +348,4 @@ class BadInput(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])

@@ -25,12 +25,12 @@ namespace {
 
 using testing::HasSubstr;
 
-const SpectralGrid kGrid({0.5, 0.6, 0.7});
+const SpectralGrid kThreeBins({0.5, 0.6, 0.7});
 
 class MaterialFiles : public FilesTest {
   protected:
     std::string brdf_error(const std::filesystem::path& file) {
-        return error_of([&] { read_brdf(file, kGrid); });
+        return error_of([&] { read_brdf(file, kThreeBins); });
     }
 };
 
@@ -49,7 +49,7 @@ std::string lambert_table(double last_theta = 90) {
 }
 
 TEST_F(MaterialFiles, ATableComesBackOnTheBins) {
-    const BrdfTable table = read_brdf(write("t.csv", lambert_table()), kGrid);
+    const BrdfTable table = read_brdf(write("t.csv", lambert_table()), kThreeBins);
     const Spectrum f = table.value(0.9f, 0.5f, 0.4f);
     EXPECT_NEAR(f[0], 0.375 / kPi, 1e-5);
     EXPECT_NEAR(f[1], 0.525 / kPi, 1e-5);
@@ -80,7 +80,7 @@ TEST_F(MaterialFiles, MerlsLayoutIsReadAsItIsMeant) {
     MaterialConfig config;
     config.model = kModel<brdf::Metal>;
     config.roughness = 0.7;
-    const Material m = make_material(config, kGrid);
+    const Material m = make_material(config, kThreeBins);
     const Bsdf at{&m, m.ggx_alpha, m.base, m.highlight};
     std::vector<double> values;
     for (int th = 0; th < 90; ++th)
@@ -103,7 +103,7 @@ TEST_F(MaterialFiles, MerlsLayoutIsReadAsItIsMeant) {
             const double scaled = value * scale;
             bytes.append(reinterpret_cast<const char*>(&scaled), sizeof scaled);
         }
-    const BrdfTable table = read_brdf(write("m.binary", bytes), kGrid);
+    const BrdfTable table = read_brdf(write("m.binary", bytes), kThreeBins);
     for (const Cosines c :
          {Cosines{0.8f, 0.7f, 0.3f}, Cosines{0.6f, 0.9f, 0.5f}, Cosines{0.95f, 0.95f, 0.9f}})
         EXPECT_NEAR(table.value(c.no, c.ni, c.io)[0] / brdf_value(at, c)[0], 1, 0.02);
