@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t kLineColumns = 69;
 // Owners give names longer than the format's 24 characters.
 constexpr std::size_t kLongestTitle = 200;
-constexpr double kTurn_rad = 2 * kPi;
 constexpr double kMinutesPerDay = 1440;
 
 // Columns are numbered from 1, as in the format's description.

@@ -149,8 +149,8 @@ void check_overlaps(const FaceTable& table, const std::string& name) {
 
 }  // namespace
 
-FaceTable face_table_of(const std::string& json, const std::string& name) {
-    const nlohmann::json document = parsed_face_json(json, name);
+FaceTable face_table_of(const std::string& text, const std::string& name) {
+    const nlohmann::json document = parsed_face_json(text, name);
     const FaceJson j(document, name);
     if (!j.has("hilcam_face"))
         throw InputError(name +
