@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "files.h"
 #include "io/gige/device/gige_zip.h"
 #include "io/gige/face/description_file.h"
 #include "io/gige/face/small_file.h"
 #include "io/gige/face/sparse_memory.h"
 #include "io/gige/face/unzip.h"
 #include "render/vocabulary/check.h"
+#include "tests/support/files.h"
 
 namespace hilcam {
 namespace {
