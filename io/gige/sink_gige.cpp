@@ -329,6 +329,7 @@ GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context) {
     std::shared_ptr<const CameraFaceFiles> face;
     if (!config.face_file.empty()) {
         face = read_face(config.genicam_file, config.face_file, config.registers_file);
+        check_camera(face->table, limits.width, limits.height);
         bytes += chunk_layout_of(face->table, limits.color_pattern).bytes(~0u);
     }
     implementation_ = std::make_unique<Implementation>(config, context, limits, bytes, std::move(face));

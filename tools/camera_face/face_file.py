@@ -20,6 +20,11 @@ def registers_of(evaluator):
         before = found.get(address, (0, ""))
         access = node.text("AccessMode", "RO")
         found[address] = (max(before[0], length), "RO" if access == "RO" and before[1] in ("", "RO") else "RW")
+    writable = {word for address, (length, access) in found.items() if access == "RW"
+                for word in range(address >> 2, address + length + 3 >> 2)}
+    for address, (length, access) in found.items():
+        if access == "RO" and not writable.isdisjoint(range(address >> 2, address + length + 3 >> 2)):
+            found[address] = (length, "RW")  # a part of it is another register
     return found
 
 

@@ -32,12 +32,7 @@ CameraFace::CameraFace(const CameraFaceFiles& files, GigeRegisterFile& own, cons
                        std::uint32_t xml_place, std::size_t xml_bytes)
     : files_(files), own_(own), features_(features), xml_place_(xml_place), xml_bytes_(xml_bytes) {
     const FaceTable& table = files.table;
-    const CameraLimits& l = features.limits;
-    if (table.width_px != l.width || table.height_px != l.height)
-        throw InputError("face_file: was made for a camera of " + std::to_string(table.width_px) + " x " +
-                         std::to_string(table.height_px) + " pixels, this one has " +
-                         std::to_string(l.width) + " x " + std::to_string(l.height) +
-                         "; run hilcam-camera-face bind again");
+    check_camera(table, features.limits.width, features.limits.height);
     reset();
     for (const FaceRange& range : table.registers)
         if (range.read_only) {

@@ -20,6 +20,13 @@ std::shared_ptr<const CameraFaceFiles> read_face(const std::filesystem::path& de
     return files;
 }
 
+void check_camera(const FaceTable& table, int width_px, int height_px) {
+    if (table.width_px == width_px && table.height_px == height_px) return;
+    throw InputError("face_file: was made for a camera of " + std::to_string(table.width_px) + " x " +
+                     std::to_string(table.height_px) + " pixels, this one has " + std::to_string(width_px) +
+                     " x " + std::to_string(height_px) + "; run hilcam-camera-face bind again");
+}
+
 std::uint32_t free_place(const FaceTable& table, std::size_t bytes) {
     // The standard's registers and those of manufacturers end at 0x10000.
     std::vector<std::pair<std::uint64_t, std::uint64_t>> used = {

@@ -78,7 +78,7 @@ inline constexpr std::size_t kMaxFaceBytes = std::size_t{16} << 20;
 
 // Throws InputError for what is no such table, with the place in it; also when two rows of values share
 // bits of a register.
-FaceTable face_table_of(const std::string& json, const std::string& name);
+FaceTable face_table_of(const std::string& text, const std::string& name);
 // Throws InputError when the table was made of another description.
 void check_description(const FaceTable& table, const std::string& xml, const std::string& table_name,
                        const std::string& xml_name);

@@ -19,6 +19,9 @@ import zipfile
 
 from bench import SOURCE, Emulator, tool
 
+sys.path.insert(0, str(SOURCE / "tools"))
+from camera_face.formula import Formula, FormulaError  # noqa: E402
+
 OWN = pathlib.Path(__file__).parent / "face"
 REAL = SOURCE.parent / "shared/data/genicam"
 HERE = pathlib.Path(__file__).parent
@@ -252,6 +255,33 @@ class BadInput(unittest.TestCase):
         self.refused(run_hilcam(f"outputs.gige.genicam_file={self.xml}", table, f"outputs.gige.registers_file={registers}"),
                      "r.txt", "0x00000010", "twice")
         self.refused(run_hilcam(f"outputs.gige.genicam_file={self.xml}"), "genicam_file", "face_file")
+
+
+class Formulas(unittest.TestCase):
+    """The tool's formulas, with values worked out by hand from the rules of the GenICam Standard 2.1.1, 2.8.13."""
+
+    def value(self, text, whole=False, **variables):
+        return Formula(text)(lambda name: variables[name], whole)
+
+    def test_operators_bind_as_the_standard_says(self):
+        self.assertEqual(self.value("1 + 2 * 3 ** 2"), 19)
+        self.assertEqual(self.value("2 ** 3 ** 2", True), 512)
+        self.assertEqual(self.value("6 & 3 = 3", True), 0)  # = binds before &
+        self.assertEqual(self.value("A > 2 ? 10 : A < 1 ? 20 : 30", A=0), 20)
+        self.assertEqual(self.value("(A=1) || (B<>2) && 0", A=1, B=2), 1)
+        self.assertEqual(self.value("~A & 0xFF", True, A=0x0F), 0xF0)
+        self.assertEqual(self.value("1 << 4 | 1", True), 17)
+
+    def test_whole_numbers_divide_towards_zero_and_floats_do_not(self):
+        self.assertEqual(self.value("7 / 2", True), 3)
+        self.assertEqual(self.value("-7 / 2", True), -3)
+        self.assertEqual(self.value("-7 % 2", True), -1)
+        self.assertEqual(self.value("625 / 10"), 62.5)
+
+    def test_what_has_no_value_is_an_error(self):
+        for text in ("1 / 0", "LN(0)", "SQRT(0 - 1)", "1 +", "(1", "2 ** 99999", "1 << 99"):
+            with self.assertRaises(FormulaError, msg=text):
+                self.value(text)
 
 
 class Files(unittest.TestCase):
