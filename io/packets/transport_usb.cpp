@@ -54,7 +54,7 @@ class UsbTransport : public PacketTransport {
         waiting_.clear();
         take_events();
         take_ended();
-        lost_ = false;  // what ended was of earlier frames
+        lost_ = false;  // the transfers that have ended belong to earlier frames
         if (enabled_ && given_up_ && in_flight() == 0) given_up_ = false;
         return enabled_ && !given_up_;
     }
