@@ -94,6 +94,7 @@ void set_up_command_line(CLI::App& app, Action& action) {
     add_tradeoff_command(app, action);
     add_campaign_command(app, action);
     add_characterise_command(app, action);
+    add_clone_command(app, action);
     add_doctor_command(app, action);
     add_cache_command(app, action);
     add_manual_command(app, action);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/random.h"
@@ -23,6 +25,10 @@ Fields fields(FixedPatternConfig& c) {
         path("prnu_map", c.prnu_map, "gain of each pixel, mean 1: TIFF or FITS of the sensor's size"),
         path("offset_map", c.offset_map, "offset of each pixel [e-]: TIFF or FITS of the sensor's size"),
         path("dark_map", c.dark_map, "dark current of each pixel [e-/s]: TIFF or FITS of the sensor's size"),
+        optional(number("dark_map_c", c.dark_map_c, 1, {-200, 150},
+                        "temperature at which dark_map and the hot pixels of defects.list were measured; "
+                        "default: temperature_c"),
+                 c.has_dark_map_c),
     };
 }
 
@@ -40,6 +46,9 @@ Fields fields(DefectsConfig& c) {
                "difference of charge between the two states of a telegraph pixel"),
         integer("telegraph_frames", c.telegraph_frames, {1, 1e6},
                 "number of frames between two random draws of a telegraph pixel's state"),
+        path("list", c.list,
+             "pixels of this very sensor, in addition: CSV with columns kind (hot, dead, blinking), x, y, "
+             "value (hot: dark current [e-/s]; blinking: difference of its states [e-])"),
     };
 }
 
@@ -50,12 +59,19 @@ float normal(std::uint32_t word) { return normal_quantile(uniform01(word)); }
 
 RandomKey key_of(const CameraModel& c) { return {static_cast<std::uint64_t>(c.fixed_pattern.seed), 0}; }
 
+bool has_listed(const DetectorPictures& pictures, DefectKind kind) {
+    return std::any_of(pictures.defects.begin(), pictures.defects.end(),
+                       [kind](const ListedDefect& d) { return d.kind == kind; });
+}
+
 bool has_gain_map(const CameraModel& c, const DetectorPictures& pictures) {
-    return c.prnu_fraction > 0 || c.fixed_pattern.column_gain_fraction > 0 || c.defects.dead_fraction > 0 ||
+    return has_listed(pictures, DefectKind::kDead) || c.prnu_fraction > 0 ||
+           c.fixed_pattern.column_gain_fraction > 0 || c.defects.dead_fraction > 0 ||
            !c.defects.dead_columns.empty() || pictures.prnu.width() > 0;
 }
 bool has_dark_map(const CameraModel& c, const DetectorPictures& pictures) {
-    return (c.fixed_pattern.dark_current_fraction > 0 && c.dark_current_e_s > 0) ||
+    return has_listed(pictures, DefectKind::kHot) || has_listed(pictures, DefectKind::kDead) ||
+           (c.fixed_pattern.dark_current_fraction > 0 && c.dark_current_e_s > 0) ||
            ((c.defects.hot_fraction > 0 || !c.defects.hot_columns.empty()) && c.defects.hot_e_s > 0) ||
            pictures.dark_e_s.width() > 0;
 }
@@ -71,6 +87,13 @@ void require_size(const PixelMap& map, const CameraModel& c, const char* key) {
                      std::to_string(c.width_px) + " x " + std::to_string(c.height_px));
 }
 
+void require_inside(const ListedDefect& d, const CameraModel& c) {
+    if (d.x >= 0 && d.x < c.width_px && d.y >= 0 && d.y < c.height_px) return;
+    throw InputError("defects.list: pixel (" + std::to_string(d.x) + ", " + std::to_string(d.y) +
+                     "); accepted: on the sensor of " + std::to_string(c.width_px) + " x " +
+                     std::to_string(c.height_px));
+}
+
 bool listed(const std::vector<double>& columns, std::uint32_t column) {
     return std::find(columns.begin(), columns.end(), static_cast<double>(column)) != columns.end();
 }
@@ -79,7 +102,19 @@ bool listed(const std::vector<double>& columns, std::uint32_t column) {
 class PixelDraw {
   public:
     PixelDraw(const CameraModel& c, const DetectorPictures& pictures)
-        : c_(c), pictures_(pictures), dark_e_s_(c.dark_current_now_e_s()), offset_row_e_(0) {
+        : c_(c),
+          pictures_(pictures),
+          dark_e_s_(c.dark_current_now_e_s()),
+          now_from_map_(c.fixed_pattern.has_dark_map_c
+                            ? std::exp2((c.temperature_c - c.fixed_pattern.dark_map_c) / c.dark_doubling_k)
+                            : 1),
+          offset_row_e_(0) {
+        for (const ListedDefect& d : pictures.defects) {
+            require_inside(d, c);
+            listed_.emplace_back(
+                sensor_pixel(static_cast<std::uint32_t>(d.x), static_cast<std::uint32_t>(d.y)), &d);
+        }
+        std::sort(listed_.begin(), listed_.end());
         for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(c.width_px); ++x) {
             const auto words = random_words(key_of(c), RandomPurpose::kRowPattern, x, 1);
             column_gain_.push_back(static_cast<double>(normal(words[0])) *
@@ -102,7 +137,7 @@ class PixelDraw {
         dead_ = kind < c_.defects.dead_fraction || (sensor && dead_column_[x]);
         hot_ = (!dead_ && kind < c_.defects.dead_fraction + c_.defects.hot_fraction) ||
                (sensor && hot_column_[x]);
-        telegraph_ = kind > 1 - c_.defects.telegraph_fraction;
+        height_e_ = kind > 1 - c_.defects.telegraph_fraction ? c_.defects.telegraph_e : 0;
         gain_ = 1 + static_cast<double>(normal(words[0])) * c_.prnu_fraction + (sensor ? column_gain_[x] : 0);
         offset_e_ =
             static_cast<double>(normal(words[1])) * c_.dsnu_e + offset_row_e_ + (sensor ? column_e_[x] : 0);
@@ -118,23 +153,36 @@ class PixelDraw {
         };
         if (pictures_.prnu.width() > 0) gain_ *= at(pictures_.prnu);
         if (pictures_.offset_e.width() > 0) offset_e_ += at(pictures_.offset_e);
-        if (pictures_.dark_e_s.width() > 0) dark_ += at(pictures_.dark_e_s) - dark_e_s_;
+        if (pictures_.dark_e_s.width() > 0) dark_ += at(pictures_.dark_e_s) * now_from_map_ - dark_e_s_;
+        const auto first = std::lower_bound(listed_.begin(), listed_.end(), pixel_,
+                                            [](const auto& a, std::uint32_t b) { return a.first < b; });
+        for (auto it = first; it != listed_.end() && it->first == pixel_; ++it) apply(*it->second);
     }
     float gain() const { return dead_ ? 0.0f : static_cast<float>(std::max(0.0, gain_)); }
     float dark_e_s() const { return dead_ ? 0.0f : static_cast<float>(std::max(0.0, dark_)); }
     float offset_e() const { return static_cast<float>(offset_e_); }
-    bool telegraph() const { return telegraph_; }
+    bool telegraph() const { return height_e_ > 0; }
+    float height_e() const { return static_cast<float>(height_e_); }
     std::uint32_t pixel() const { return pixel_; }
 
   private:
+    void apply(const ListedDefect& defect) {
+        if (defect.kind == DefectKind::kDead) dead_ = true;
+        if (defect.kind == DefectKind::kHot) dark_ = defect.value * now_from_map_;
+        if (defect.kind == DefectKind::kBlinking) height_e_ = defect.value;
+    }
+
     const CameraModel& c_;
     const DetectorPictures& pictures_;
-    double dark_e_s_, offset_row_e_;
+    double dark_e_s_;
+    double now_from_map_;  // dark current at the operating temperature over that at dark_map_c
+    double offset_row_e_;
+    std::vector<std::pair<std::uint32_t, const ListedDefect*>> listed_;  // by pixel
     std::vector<double> column_gain_, column_e_;
     std::vector<bool> dead_column_, hot_column_;
     std::uint32_t pixel_ = 0;
-    bool dead_ = false, hot_ = false, telegraph_ = false;
-    double gain_ = 1, offset_e_ = 0, dark_ = 0;
+    bool dead_ = false, hot_ = false;
+    double gain_ = 1, offset_e_ = 0, dark_ = 0, height_e_ = 0;
 };
 
 }  // namespace
@@ -149,7 +197,8 @@ FixedPattern draw_fixed_pattern(const CameraModel& c, const DetectorPictures& pi
     if (has_gain_map(c, pictures)) out.gain = PixelMap(width, height);
     if (has_dark_map(c, pictures)) out.dark_e_s = PixelMap(width, height);
     if (has_offset_map(c, pictures)) out.offset_e = PixelMap(width, height);
-    const bool telegraph = c.defects.telegraph_fraction > 0 && c.defects.telegraph_e > 0;
+    const bool telegraph = (c.defects.telegraph_fraction > 0 && c.defects.telegraph_e > 0) ||
+                           has_listed(pictures, DefectKind::kBlinking);
     if (out.gain.width() + out.dark_e_s.width() + out.offset_e.width() == 0 && !telegraph) return out;
 
     const ArrayPlaces places(c);
@@ -165,7 +214,8 @@ FixedPattern draw_fixed_pattern(const CameraModel& c, const DetectorPictures& pi
             if (out.gain.width() > 0) out.gain.row(y)[at] = pixel.gain();
             if (out.dark_e_s.width() > 0) out.dark_e_s.row(y)[at] = pixel.dark_e_s();
             if (out.offset_e.width() > 0) out.offset_e.row(y)[at] = pixel.offset_e();
-            if (telegraph && pixel.telegraph()) out.telegraph.push_back({x, y, pixel.pixel()});
+            if (telegraph && pixel.telegraph())
+                out.telegraph.push_back({x, y, pixel.pixel(), pixel.height_e()});
         }
     }
     return out;

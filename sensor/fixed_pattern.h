@@ -24,15 +24,26 @@ struct FixedPatternConfig {
     double column_gain_fraction = 0;   // standard deviation of the columns' gains
     std::filesystem::path prnu_map;    // picture of the whole sensor: each pixel's gain (mean 1)
     std::filesystem::path offset_map;  // each pixel's offset [e-]
-    std::filesystem::path dark_map;    // each pixel's dark current at the operating temperature [e-/s]
+    std::filesystem::path dark_map;    // each pixel's dark current at dark_map_c [e-/s]
+    double dark_map_c = 0;             // only if has_dark_map_c; else the operating temperature
+    bool has_dark_map_c = false;
 };
 Fields fields(FixedPatternConfig& config);
 
 // A value for every pixel of the sensor.
 using PixelMap = Image<float, struct PixelMapQuantity>;
-// Maps from the files; an empty image means that the file was not given.
+// A defective pixel of one particular sensor, by its place on it.
+enum class DefectKind { kHot, kDead, kBlinking };
+struct ListedDefect {
+    DefectKind kind = DefectKind::kHot;
+    int x = 0, y = 0;
+    double value =
+        0;  // hot: its dark current at dark_map_c [e-/s]; blinking: its two states' difference [e-]
+};
+// Maps and list from the files; an empty image means that the file was not given.
 struct DetectorPictures {
     PixelMap prnu, offset_e, dark_e_s;
+    std::vector<ListedDefect> defects;
 };
 
 // Pixels that do not work properly. Hot: more dark current, exponentially distributed. Dead: no response.
@@ -47,6 +58,7 @@ struct DefectsConfig {
     double telegraph_fraction = 0;
     double telegraph_e = 0;  // difference between the two states
     std::int64_t telegraph_frames = 8;
+    std::filesystem::path list;  // CSV: kind, x, y, value of pixels in addition to those that are drawn
 };
 Fields fields(DefectsConfig& config);
 
@@ -54,6 +66,7 @@ Fields fields(DefectsConfig& config);
 struct TelegraphPixel {
     int x = 0, y = 0;
     std::uint32_t pixel = 0;  // key for its random numbers
+    float height_e = 0;       // difference between its two states
 };
 
 struct CameraModel;
@@ -66,7 +79,8 @@ struct FixedPattern {
     double uniform_dark_e_s = 0;            // used without a map
     std::vector<TelegraphPixel> telegraph;  // in order of rows
 };
-// Throws InputError when a map has another size than the sensor. Owner thread.
+// Throws InputError when a map has another size than the sensor, or when a listed pixel is outside it. Owner
+// thread.
 FixedPattern draw_fixed_pattern(const CameraModel& camera, const DetectorPictures& pictures);
 
 }  // namespace hilcam

@@ -44,7 +44,6 @@ ReadOut::ReadOut(const CameraModel& c)
       a3_(static_cast<float>(c.nonlinearity.size() < 2 ? 0 : c.nonlinearity[1])),
       pixel_noise_e_(static_cast<float>(std::hypot(c.read_noise_e, c.reset_noise_e))),
       row_noise_e_(static_cast<float>(c.row_noise_e)),
-      telegraph_e_(static_cast<float>(c.defects.telegraph_e)),
       telegraph_frames_(static_cast<std::uint64_t>(c.defects.telegraph_frames)),
       filter_(c.filters),
       converter_(c.converter, static_cast<int>(c.bits), static_cast<std::uint64_t>(c.fixed_pattern.seed),
@@ -111,7 +110,7 @@ void ReadOut::add_telegraph(std::span<const TelegraphPixel> pixels, int charges_
         const std::uint64_t shifted = key.frame + p.pixel % telegraph_frames_;
         const auto words =
             random_words({key.seed, shifted / telegraph_frames_}, RandomPurpose::kTelegraph, p.pixel);
-        charge_e[x] += (words[0] & 1u ? 0.5f : -0.5f) * telegraph_e_;
+        charge_e[x] += (words[0] & 1u ? 0.5f : -0.5f) * p.height_e;
     }
 }
 

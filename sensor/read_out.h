@@ -53,7 +53,7 @@ class ReadOut {
 
     float full_well_e_, a2_, a3_;
     float pixel_noise_e_;  // read and reset noise
-    float row_noise_e_, telegraph_e_;
+    float row_noise_e_;
     std::uint64_t telegraph_frames_;
     int flicker_octaves_ = 0;
     float flicker_octave_e_ = 0;

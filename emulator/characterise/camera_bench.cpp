@@ -8,7 +8,6 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uint64_t kSeed = 1288;
 // The plate is one metre in front of the camera, as large as the field of view requires.
 constexpr double kDistance_m = 1;
 
@@ -65,7 +64,7 @@ WorldSnapshot empty_room() {
 }  // namespace
 
 CameraBench::CameraBench(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling,
-                         double lamp_w_m2_um, const DetectorPictures& pictures)
+                         double lamp_w_m2_um, const DetectorPictures& pictures, std::uint64_t seed)
     : camera_(camera),
       grid_(grid),
       sampling_(sampling),
@@ -73,6 +72,7 @@ CameraBench::CameraBench(const CameraModel& camera, const SpectralGrid& grid, co
       geometry_(geometry_of(camera, sampling.guard_px)),
       image_(geometry_of(camera, sampling.guard_px, sampling.oversampling)),
       chain_(camera, grid, sampling, pictures),
+      seed_(seed),
       full_(image_.padded_width(), image_.padded_height(), grid.size()),
       dimmed_(image_.padded_width(), image_.padded_height(), grid.size()),
       mean_e_(array_size(camera)[0], array_size(camera)[1]) {
@@ -92,7 +92,7 @@ void CameraBench::show(const BenchTarget& target) {
     std::vector<PointSource> points;
     points.reserve(renderer.max_points());
     RenderStats stats;
-    renderer.render(empty_room(), {kSeed, 0}, full_, points, stats);
+    renderer.render(empty_room(), {seed_, 0}, full_, points, stats);
     filter_ = -1;
 }
 
@@ -106,9 +106,12 @@ void CameraBench::expose(const Exposure& exposure, double filter) {
     chain_.expose(dimmed_, {}, exposure, mean_e_);
 }
 
-const DnImage& CameraBench::frame() {
-    DnImage& next = frame_[++frames_ % 2];
-    chain_.digitise(mean_e_, exposure_, {kSeed, frames_}, next);
+const DnImage& CameraBench::frame() { return frame(frames_ + 1); }
+
+const DnImage& CameraBench::frame(std::uint64_t number) {
+    frames_ = number;
+    DnImage& next = frame_[number % 2];
+    chain_.digitise(mean_e_, exposure_, {seed_, number}, next);
     return next;
 }
 

@@ -24,9 +24,10 @@ struct BenchTarget {
 
 class CameraBench {
   public:
-    // lamp_w_m2_um: irradiance of the plate. Throws InputError as SensorChain does. Owner thread.
+    // lamp_w_m2_um: irradiance of the plate. seed: the noise's. Throws InputError as SensorChain does. Owner
+    // thread.
     CameraBench(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling,
-                double lamp_w_m2_um, const DetectorPictures& pictures);
+                double lamp_w_m2_um, const DetectorPictures& pictures, std::uint64_t seed = 1288);
 
     void show(const BenchTarget& target);
     // Sets the exposure of the next frames. filter: transmission of a neutral filter in the light (0: shutter
@@ -37,6 +38,8 @@ class CameraBench {
 
     const SensorChain& chain() const { return chain_; }
     const ImageGeometry& geometry() const { return geometry_; }  // the detector's window
+    // Takes the frame of that number: the same number, settings and target give the same frame.
+    const DnImage& frame(std::uint64_t number);
     std::uint64_t frames_taken() const { return frames_; }
 
   private:
@@ -46,6 +49,7 @@ class CameraBench {
     double lamp_w_m2_um_;
     ImageGeometry geometry_, image_;
     SensorChain chain_;
+    std::uint64_t seed_;  // seed of the noise
     RadianceImage full_, dimmed_;
     double filter_ = -1;  // filter with which dimmed_ was made
     Exposure exposure_;

@@ -16,6 +16,7 @@
 #include "io/cache/atmosphere_cache.h"
 #include "io/files/atmosphere_file.h"
 #include "io/files/catalogue_file.h"
+#include "io/files/defect_list.h"
 #include "io/images/picture_file.h"
 #include "render/background/body_albedo.h"
 #include "render/earth/air_from_space.h"
@@ -187,6 +188,7 @@ DetectorPictures load_detector_pictures(const CameraModel& camera) {
     if (!config.prnu_map.empty()) out.prnu = read_pixel_map(config.prnu_map, false);
     if (!config.offset_map.empty()) out.offset_e = read_pixel_map(config.offset_map, true);
     if (!config.dark_map.empty()) out.dark_e_s = read_pixel_map(config.dark_map, false);
+    if (!camera.defects.list.empty()) out.defects = read_defect_list(camera.defects.list);
     return out;
 }
 

@@ -24,6 +24,7 @@ void add_bench_command(CLI::App& app, Action& action);
 void add_tradeoff_command(CLI::App& app, Action& action);
 void add_campaign_command(CLI::App& app, Action& action);
 void add_characterise_command(CLI::App& app, Action& action);
+void add_clone_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
 void add_cache_command(CLI::App& app, Action& action);
 void add_manual_command(CLI::App& app, Action& action);

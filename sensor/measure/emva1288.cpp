@@ -105,28 +105,78 @@ ResponseCurve::ResponseCurve(std::span<const LightPoint> points, double saturati
             y.push_back(p.signal_dn()), weight.push_back(1 / square(p.signal_dn())),
             variance.push_back(p.signal_variance());
     for (double& value : x) value /= scale_;
-    const Fitted fit = fit_polynomial(x, y, weight, variance, 3);
-    coefficient_ = fit.coefficient;
-    slope_uncertainty_ = std::sqrt(fit.variance(1)) / scale_;
+    fit_ = fit_polynomial(x, y, weight, variance, 3);
 }
 
 double ResponseCurve::signal_dn(double photons) const {
     const double x = photons / scale_;
-    const auto& c = coefficient_;
+    const auto& c = fit_.coefficient;
     return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
 }
 double ResponseCurve::slope_dn_photon(double photons) const {
     const double x = photons / scale_;
-    const auto& c = coefficient_;
+    const auto& c = fit_.coefficient;
     return (c[1] + x * (2 * c[2] + x * 3 * c[3])) / scale_;
 }
 double ResponseCurve::photons(double signal) const {
-    double at = (signal - coefficient_[0]) / coefficient_[1] * scale_;
+    double at = (signal - fit_.coefficient[0]) / fit_.coefficient[1] * scale_;
     for (int step = 0; step < 20; ++step) at -= (signal_dn(at) - signal) / slope_dn_photon(at);
     return at;
 }
 Measured ResponseCurve::responsivity_dn_photon() const {
-    return {coefficient_[1] / scale_, slope_uncertainty_};
+    return {fit_.coefficient[1] / scale_, std::sqrt(fit_.variance(1)) / scale_};
+}
+
+namespace {
+
+// Returns the standard deviation of a function of a fit's coefficients, from their covariance.
+template <class Function>
+double propagated(const Fitted& fit, const Function& function) {
+    std::vector<double> at = fit.coefficient, slope;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const double step = std::sqrt(std::max(fit.variance(i), 0.0));
+        const double kept = at[i];
+        at[i] = kept + step;
+        const double above = function(at);
+        at[i] = kept - step;
+        slope.push_back(step > 0 ? (above - function(at)) / (2 * step) : 0);
+        at[i] = kept;
+    }
+    double variance = 0;
+    for (std::size_t i = 0; i < at.size(); ++i)
+        for (std::size_t j = 0; j < at.size(); ++j)
+            variance += slope[i] * slope[j] * fit.covariance[i * at.size() + j];
+    return std::sqrt(std::max(variance, 0.0));
+}
+
+// Returns the straight signal c0 + c1 u at which the polynomial c has a signal.
+double straight_dn(const std::vector<double>& c, double signal_dn) {
+    double u = (signal_dn - c[0]) / c[1];
+    for (int step = 0; step < 20; ++step)
+        u -= (c[0] + u * (c[1] + u * (c[2] + u * c[3])) - signal_dn) / (c[1] + u * (2 * c[2] + u * 3 * c[3]));
+    return c[0] + c[1] * u;
+}
+
+}  // namespace
+
+Measured charge_e(const ResponseCurve& response, const Measured& gain, double signal_dn) {
+    const auto straight = [&](const std::vector<double>& c) { return straight_dn(c, signal_dn); };
+    const double value = straight(response.fit().coefficient) / gain.value;
+    return {value, std::hypot(propagated(response.fit(), straight) / gain.value,
+                              value * gain.uncertainty / gain.value)};
+}
+
+Bend bend(const ResponseCurve& response, const Measured& gain, double full_well_e) {
+    const double full_dn = gain.value * full_well_e;
+    const double of_gain = gain.uncertainty / gain.value;
+    const auto a2 = [&](const std::vector<double>& c) { return c[2] / square(c[1]) * full_dn; };
+    const auto a3 = [&](const std::vector<double>& c) {
+        return c[3] / (c[1] * square(c[1])) * square(full_dn);
+    };
+    const Fitted& fit = response.fit();
+    const double second = a2(fit.coefficient), third = a3(fit.coefficient);
+    return {{second, std::hypot(propagated(fit, a2), second * of_gain)},
+            {third, std::hypot(propagated(fit, a3), 2 * third * of_gain)}};
 }
 
 Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const ResponseCurve& response,
@@ -184,7 +234,7 @@ DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Measured& 
     const Fitted of_variance = fit_polynomial(time, variance, variance_weight, variance_variance, 1);
     return {per_gain(of_mean.coefficient[1], std::sqrt(of_mean.variance(1)), 1),
             per_gain(of_variance.coefficient[1], std::sqrt(of_variance.variance(1)), 2),
-            of_mean.coefficient[0]};
+            of_mean.coefficient[0], std::sqrt(of_mean.variance(0))};
 }
 
 // --- linearity
@@ -224,11 +274,16 @@ Linearity linearity(std::span<const ResponsePoint> points, double saturation_dn)
 
 Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
                      const PixelSelection& selection, const Measured& gain, double bandwidth) {
-    const std::vector<double> mean = dark.mean_dn();
-    std::vector<double> image = sum_of_images(mean, smooth_surface(mean, selection, kShadingOrder), -1);
     const double frames = dark.frames();
-    Nonuniformity out = split(std::move(image), selection, temporal.pixel_dn2() / frames,
-                              temporal.row_dn2 / frames, bandwidth);
+    return dsnu_e(dark.mean_dn(), {temporal.pixel_dn2() / frames, temporal.row_dn2 / frames}, selection, gain,
+                  bandwidth);
+}
+
+Nonuniformity dsnu_e(std::span<const double> dark_dn, const PictureError& rest,
+                     const PixelSelection& selection, const Measured& gain, double bandwidth) {
+    std::vector<double> image = sum_of_images({dark_dn.begin(), dark_dn.end()},
+                                              smooth_surface(dark_dn, selection, kShadingOrder), -1);
+    Nonuniformity out = split(std::move(image), selection, rest.pixel_dn2, rest.row_dn2, bandwidth);
     scale(out, 1 / gain.value);
     for (Measured* f : {&out.total, &out.row, &out.column, &out.pixel})
         f->uncertainty = std::hypot(f->uncertainty, f->value * gain.uncertainty / gain.value);
@@ -238,15 +293,23 @@ Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
 Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& flat_temporal,
                             const FrameStack& dark, const TemporalStatistics& dark_temporal,
                             const PixelSelection& selection, double bandwidth) {
-    std::vector<double> image = sum_of_images(flat.mean_dn(), dark.mean_dn(), -1);
+    const auto rest = [&](auto part) {
+        return part(flat_temporal) / flat.frames() + part(dark_temporal) / dark.frames();
+    };
+    return prnu_fraction(sum_of_images(flat.mean_dn(), dark.mean_dn(), -1),
+                         flat_temporal.mean_dn.value - dark_temporal.mean_dn.value,
+                         {rest([](const TemporalStatistics& t) { return t.pixel_dn2(); }),
+                          rest([](const TemporalStatistics& t) { return t.row_dn2; })},
+                         selection, bandwidth);
+}
+
+Nonuniformity prnu_fraction(std::vector<double> image, double signal_dn, const PictureError& rest,
+                            const PixelSelection& selection, double bandwidth) {
     const std::vector<double> shading = smooth_surface(image, selection, kShadingOrder);
     for (std::size_t i = 0; i < image.size(); ++i) image[i] = image[i] / shading[i] - 1;
-    const double signal_dn2 = square(flat_temporal.mean_dn.value - dark_temporal.mean_dn.value);
-    const auto rest = [&](auto part) {
-        return (part(flat_temporal) / flat.frames() + part(dark_temporal) / dark.frames()) / signal_dn2;
-    };
-    return split(std::move(image), selection, rest([](const TemporalStatistics& t) { return t.pixel_dn2(); }),
-                 rest([](const TemporalStatistics& t) { return t.row_dn2; }), bandwidth);
+    const double signal_dn2 = square(signal_dn);
+    return split(std::move(image), selection, rest.pixel_dn2 / signal_dn2, rest.row_dn2 / signal_dn2,
+                 bandwidth);
 }
 
 // --- derived figures

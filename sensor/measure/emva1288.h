@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sensor/measure/frame_statistics.h"
+#include "sensor/measure/least_squares.h"
 
 namespace hilcam {
 
@@ -47,12 +48,25 @@ class ResponseCurve {
     double photons(double signal_dn) const;
     // Returns the responsivity for small signals: the slope without light.
     Measured responsivity_dn_photon() const;
-    double offset_dn() const { return coefficient_[0]; }
+    double offset_dn() const { return fit_.coefficient[0]; }
+    // Returns the coefficients of (photons / scale)^k, with their covariance.
+    const Fitted& fit() const { return fit_; }
 
   private:
-    std::vector<double> coefficient_;  // coefficients of (photons / scale_)^k
-    double scale_ = 1, slope_uncertainty_ = 0;
+    Fitted fit_;
+    double scale_ = 1;
 };
+
+// The charge behind a signal: (R0 x photons + offset) / K, with R0 the slope without light; small signals are
+// straight in it.
+Measured charge_e(const ResponseCurve& response, const Measured& gain_dn_e, double signal_dn);
+
+// The bend of the response as a camera file has it: a charge q is read as q (1 + a2 x + a3 x^2), x = q / full
+// well.
+struct Bend {
+    Measured a2, a3;
+};
+Bend bend(const ResponseCurve& response, const Measured& gain_dn_e, double full_well_e);
 
 // Returns K for small signals. The standard's K is one slope for all signals; where the response bends by a
 // share a at full scale, that slope is off by 1.6 a. Mean and variance are therefore first transformed to the
@@ -75,6 +89,7 @@ struct DarkPoint {
 struct DarkCurrent {
     Measured from_mean_e_s, from_variance_e_s;
     double offset_dn = 0;  // mean at zero exposure
+    double offset_uncertainty_dn = 0;
 };
 DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Measured& gain_dn_e,
                              double bandwidth = 1);
@@ -104,6 +119,13 @@ struct Nonuniformity {
 // rows smooths fixed differences between pixels as it does noise; `bandwidth` corrects for that.
 Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
                      const PixelSelection& selection, const Measured& gain_dn_e, double bandwidth = 1);
+// The same from any mean picture in the dark, such as a fit at zero exposure. rest: variance of its random
+// error.
+struct PictureError {
+    double pixel_dn2 = 0, row_dn2 = 0;
+};
+Nonuniformity dsnu_e(std::span<const double> dark_dn, const PictureError& rest,
+                     const PixelSelection& selection, const Measured& gain_dn_e, double bandwidth = 1);
 // Returns PRNU1288, a fraction, from L flat and L dark frames with the same exposure. The standard subtracts
 // variances, s^2_50 - s^2_dark. Here it is the variance of the difference between the two averaged images: it
 // has the same expectation if gains and offsets are independent, and is right if they are not. The lens's
@@ -111,6 +133,10 @@ Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
 // here the lens stays on.
 Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& flat_temporal,
                             const FrameStack& dark, const TemporalStatistics& dark_temporal,
+                            const PixelSelection& selection, double bandwidth = 1);
+
+// The same from the difference of two mean pictures with that mean.
+Nonuniformity prnu_fraction(std::vector<double> flat_less_dark_dn, double signal_dn, const PictureError& rest,
                             const PixelSelection& selection, double bandwidth = 1);
 
 // These figures follow from the others (section 6.6 and annex): mu_e.min = sqrt(sigma_d^2 + 1/(12 K^2)) +

@@ -19,6 +19,16 @@ std::span<const std::uint8_t> use_of(const PixelSelection& s, int y) {
                                     static_cast<std::size_t>(s.width));
 }
 
+// Returns the variance that is common to a line, from the differences' mean in each: the means also vary with
+// the remaining noise of the line's pixels.
+double common_variance_dn2(std::span<const double> means, double mean, double pixels_of_line,
+                           double variance_dn2) {
+    double between = 0;
+    for (const double value : means) between += square(value - mean);
+    const double of_means = 0.5 * between / (static_cast<double>(means.size()) - 1);
+    return (of_means - variance_dn2 / pixels_of_line) / (1 - 1 / pixels_of_line);
+}
+
 }  // namespace
 
 std::size_t PixelSelection::count() const {
@@ -28,8 +38,10 @@ std::size_t PixelSelection::count() const {
 void PairSeries::add(const DnImage& a, const DnImage& b) {
     // Sums of whole numbers are exact in any order.
     std::int64_t sum = 0, difference = 0, squares = 0, pixels = 0;
-    std::vector<double> row_means;
+    std::vector<double> row_means, column_means;
     double pixels_of_row = 0;
+    std::vector<std::int64_t> column_sum(static_cast<std::size_t>(selection_.width)),
+        column_pixels(static_cast<std::size_t>(selection_.width));
     for (int y = 0; y < selection_.height; ++y) {
         const auto use = use_of(selection_, y);
         const auto row_a = row_of(a, selection_, y), row_b = row_of(b, selection_, y);
@@ -39,6 +51,7 @@ void PairSeries::add(const DnImage& a, const DnImage& b) {
             const std::int64_t d = std::int64_t{row_a[x]} - std::int64_t{row_b[x]};
             sum += std::int64_t{row_a[x]} + std::int64_t{row_b[x]};
             row_difference += d;
+            column_sum[x] += d, ++column_pixels[x];
             squares += d * d;
             ++row_pixels;
         }
@@ -55,15 +68,16 @@ void PairSeries::add(const DnImage& a, const DnImage& b) {
     sum_ += static_cast<double>(sum) / (2 * n);
     square_ += variance;
     frame_ += 0.5 * square(mean_difference);
-    // Means of rows vary with the row's own noise and with the remaining noise of its pixels.
-    if (row_means.size() > 1) {
-        double between = 0;
-        for (const double mean : row_means) between += square(mean - mean_difference);
-        const auto rows = static_cast<double>(row_means.size());
-        const double of_means = 0.5 * between / (rows - 1);
-        const double per_row = pixels_of_row / rows;
-        row_ += (of_means - variance / per_row) / (1 - 1 / per_row);
-    }
+    if (row_means.size() > 1)
+        row_ += common_variance_dn2(row_means, mean_difference,
+                                    pixels_of_row / static_cast<double>(row_means.size()), variance);
+    for (std::size_t x = 0; x < column_sum.size(); ++x)
+        if (column_pixels[x] > 0)
+            column_means.push_back(static_cast<double>(column_sum[x]) /
+                                   static_cast<double>(column_pixels[x]));
+    if (column_means.size() > 1)
+        column_ += common_variance_dn2(column_means, mean_difference,
+                                       n / static_cast<double>(column_means.size()), variance);
     ++pairs_;
 }
 
@@ -82,6 +96,9 @@ TemporalStatistics PairSeries::result() const {
     const double of_frame = frame_ / pairs - (variance / pixels + out.row_dn2 / rows);
     out.frame_dn2 =
         of_frame > 3 * std::sqrt(2 / pairs) * (variance / pixels + out.row_dn2 / rows) ? of_frame : 0;
+    const double columns = selection_.width;
+    const double chance_of_column = variance / (pixels / columns) * std::sqrt(2 / (columns * pairs));
+    out.column_dn2 = column_ / pairs > 4 * chance_of_column ? column_ / pairs : 0;
     const double white = variance - out.row_dn2 - out.frame_dn2;
     out.mean_dn = {sum_ / pairs,
                    std::sqrt((white / pixels + out.row_dn2 / rows + out.frame_dn2) / (2 * pairs))};
@@ -90,6 +107,11 @@ TemporalStatistics PairSeries::result() const {
                                             (square(white) / pixels + square(out.row_dn2) / rows +
                                              square(out.frame_dn2) + 2 * white * out.row_dn2 / pixels))};
     return out;
+}
+
+double line_variance_uncertainty_dn2(const TemporalStatistics& s, double line_dn2, double lines,
+                                     double line_pixels) {
+    return (line_dn2 + s.pixel_dn2() / line_pixels) * std::sqrt(2 / (lines * s.pairs));
 }
 
 FrameStack::FrameStack(const PixelSelection& s)
@@ -221,7 +243,7 @@ std::vector<double> smooth_surface(std::span<const double> image, const PixelSel
     return out;
 }
 
-std::size_t exclude_outliers(std::span<const double> image, double sigmas, PixelSelection& s) {
+std::size_t exclude_outliers(std::span<const double> image, double sigmas, PixelSelection& s, double least) {
     std::vector<double> values;
     for (std::size_t i = 0; i < image.size(); ++i)
         if (s.use[i]) values.push_back(image[i]);
@@ -233,7 +255,7 @@ std::size_t exclude_outliers(std::span<const double> image, double sigmas, Pixel
     };
     const double center = median();
     for (double& value : values) value = std::abs(value - center);
-    const double reach = sigmas * 1.4826 * median();
+    const double reach = sigmas * std::max(1.4826 * median(), least);
     std::size_t out = 0;
     for (std::size_t i = 0; i < image.size(); ++i)
         if (s.use[i] && std::abs(image[i] - center) > reach) s.use[i] = 0, ++out;

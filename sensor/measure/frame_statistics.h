@@ -40,8 +40,9 @@ struct Measured {
 struct TemporalStatistics {
     Measured mean_dn;
     Measured variance_dn2;
-    double row_dn2 = 0;    // part of the variance that is common to a row, without the frame's part
-    double frame_dn2 = 0;  // part of the variance that is common to the frame
+    double row_dn2 = 0;     // part of the variance that is common to a row, without the frame's part
+    double frame_dn2 = 0;   // part of the variance that is common to the frame
+    double column_dn2 = 0;  // part that is common to a column; pixel_dn2() includes it
     int pairs = 0;
 
     double pixel_dn2() const { return variance_dn2.value - row_dn2 - frame_dn2; }
@@ -56,9 +57,14 @@ class PairSeries {
 
   private:
     const PixelSelection& selection_;
-    double sum_ = 0, square_ = 0, row_ = 0, frame_ = 0;  // sums over the pairs
+    double sum_ = 0, square_ = 0, row_ = 0, frame_ = 0, column_ = 0;  // sums over the pairs
     int pairs_ = 0;
 };
+
+// Returns one standard deviation of the error of row_dn2 or column_dn2: `lines` rows or columns with
+// `line_pixels` pixels each.
+double line_variance_uncertainty_dn2(const TemporalStatistics& s, double line_dn2, double lines,
+                                     double line_pixels);
 
 // Sums of frames with one setting, for each pixel.
 class FrameStack {
@@ -89,8 +95,10 @@ std::vector<double> smooth_surface(std::span<const double> image, const PixelSel
 
 // Excludes pixels that are farther than `sigmas` standard deviations from the median of those that count. The
 // standard deviation is 1.4826 times the median deviation, which outliers do not affect (Hampel, J. Amer.
-// Statist. Assoc. 69, 1974). Returns how many were excluded.
-std::size_t exclude_outliers(std::span<const double> image, double sigmas, PixelSelection& selection);
+// Statist. Assoc. 69, 1974). A standard deviation below `least` counts as that, for values that rounding
+// makes equal. Returns how many were excluded.
+std::size_t exclude_outliers(std::span<const double> image, double sigmas, PixelSelection& selection,
+                             double least = 0);
 
 // The effect of a filter on white noise: the variance of a pixel over the sum of its autocovariances with
 // neighbours up to some columns and rows away. A low-pass filter does not change that sum. Computed from the

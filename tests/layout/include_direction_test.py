@@ -18,7 +18,7 @@ LAYERS = ("emulator", "io", "sensor", "render")
 # From the top down. A layer's own name stands for the files that lie in none of its rooms.
 ROOMS = (
     "emulator", "emulator/subcommands",
-    "emulator/zoo", "emulator/tradeoff", "emulator/campaign", "emulator/check", "emulator/bench", "emulator/characterise", "emulator/run", "emulator/recording",
+    "emulator/zoo", "emulator/tradeoff", "emulator/campaign", "emulator/clone", "emulator/check", "emulator/bench", "emulator/characterise", "emulator/run", "emulator/recording",
     "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion", "emulator/progress", "emulator/ground",
     "io/gige", "io/gige/device", "io/gige/stream", "io/gige/face", "io/uvc", "io/v4l2", "io/vizard", "io/ip42", "io/preview", "io/packets", "io/shm", "io/truth", "io/commands", "io/lines",
     "io/spice", "io/maps", "io/meshes", "io/files", "io/cache", "io/images", "io/config", "io/contract", "io/ptp", "io/naif", "io/orbits", "io/system",

@@ -140,5 +140,45 @@ TEST(FixedPattern, PicturesReplaceTheMeansAndMustFit) {
     }
 }
 
+// A map and a list that were made at 20 C are of a warmer sensor at 27 C: 2^(7/7) times as much.
+TEST(FixedPattern, AMapOfTheDarkCurrentFollowsTheTemperature) {
+    CameraModel c = camera_64();
+    c.dark_current_e_s = 10, c.dark_doubling_k = 7, c.temperature_c = 27;
+    c.fixed_pattern.has_dark_map_c = true, c.fixed_pattern.dark_map_c = 20;
+    DetectorPictures pictures;
+    pictures.dark_e_s = PixelMap(64, 64);
+    for (float& v : pictures.dark_e_s.all()) v = 30;
+    pictures.defects = {{DefectKind::kHot, 5, 6, 400}};
+    const FixedPattern p = draw_fixed_pattern(c, pictures);
+    EXPECT_FLOAT_EQ(p.dark_e_s.row(9)[9], 60.0f);
+    EXPECT_FLOAT_EQ(p.dark_e_s.row(6)[5], 800.0f);
+}
+
+TEST(FixedPattern, ListedPixelsHaveTheirDefects) {
+    CameraModel c = camera_64();
+    c.window_px = {10, 20, 40, 30};
+    DetectorPictures pictures;
+    pictures.defects = {{DefectKind::kHot, 12, 23, 350},
+                        {DefectKind::kDead, 13, 23, 0},
+                        {DefectKind::kBlinking, 12, 23, 18},
+                        {DefectKind::kHot, 5, 5, 99}};  // outside the window
+    const FixedPattern p = draw_fixed_pattern(c, pictures);
+    EXPECT_EQ(p.dark_e_s.row(3)[2], 350.0f);
+    EXPECT_EQ(p.dark_e_s.row(3)[4], static_cast<float>(c.dark_current_now_e_s()));
+    EXPECT_EQ(p.gain.row(3)[3], 0.0f);
+    EXPECT_EQ(p.gain.row(3)[2], 1.0f);
+    ASSERT_EQ(p.telegraph.size(), 1u);
+    EXPECT_EQ(p.telegraph[0].x, 2);
+    EXPECT_EQ(p.telegraph[0].y, 3);
+    EXPECT_EQ(p.telegraph[0].height_e, 18.0f);
+    pictures.defects = {{DefectKind::kDead, 64, 0, 0}};
+    try {
+        draw_fixed_pattern(c, pictures);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "defects.list: pixel (64, 0); accepted: on the sensor of 64 x 64");
+    }
+}
+
 }  // namespace
 }  // namespace hilcam

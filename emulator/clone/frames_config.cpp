@@ -1,0 +1,39 @@
+#include "emulator/clone/frames_config.h"
+
+namespace hilcam {
+
+Fields fields(SeriesConfig& s) {
+    return {
+        required(choice("kind", s.kind, {"dark", "flat"},
+                        "dark: without any light; flat: of an evenly lit surface")),
+        required(number("exposure_ms", s.exposure_s, 1e-3, {1e-6, 1e7}, "exposure time")),
+        optional(number("temperature_c", s.temperature_c, 1, {-200, 150}, "temperature of the detector"),
+                 s.has_temperature_c),
+        number("gain_db", s.gain_db, 1, {-60, 60}, "gain; the same for all series"),
+        number("light", s.light, 1, {1e-9, 1e12},
+               "light of a flat in any unit that is the same for all flats, if it was not constant"),
+        required(texts("files", s.files, "names of the frames, with * and ?, in the order of their taking")),
+    };
+}
+
+void validate(const SeriesConfig& s) {
+    if (s.files.empty()) throw refused_key("files", "no name", "names, such as [\"dark_10ms/*.png\"]");
+}
+
+Fields fields(FramesConfig& f) {
+    return {
+        integer("bits", f.bits, {0, 16}, "bits of a number; 0: those of the camera that --like names"),
+        integer("width_px", f.width_px, {0, 16384}, "columns of raw files; 0: those of that camera"),
+        integer("height_px", f.height_px, {0, 16384}, "rows of raw files; 0: those of that camera"),
+        integer("container_bits", f.container_bits, {0, 16},
+                "bits of a pixel in raw files: 8 or 16; 0: 8 for numbers of up to 8 bits, else 16"),
+        integer("header_bytes", f.header_bytes, {0, 1e6}, "bytes before the first pixel of raw files"),
+        integer("shift_bits", f.shift_bits, {0, 15},
+                "places by which all numbers are shifted up in the files"),
+        choice("byte_order", f.byte_order, {"little", "big"},
+               "byte that comes first in raw files of 16 bits"),
+        sections("series", f.series, "series of frames with the same settings"),
+    };
+}
+
+}  // namespace hilcam
