@@ -11,7 +11,7 @@ namespace hilcam {
 namespace {
 
 using testing::HasSubstr;
-using Kind = RegisterField::Kind;
+using FieldKind = RegisterField::Kind;
 using Of = FaceRow::Of;
 
 constexpr std::uint32_t kWindow = 0x20000, kExposure = 0x20010, kLongest = 0x20014, kFormat = 0x20018,

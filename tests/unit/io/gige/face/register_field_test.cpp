@@ -12,8 +12,6 @@
 namespace hilcam {
 namespace {
 
-using Kind = RegisterField::Kind;
-
 TEST(RegisterField, BitsAreCountedFromTheLeastSignificantInBothOrders) {
     const std::array<std::uint8_t, 4> bytes = {0x12, 0x34, 0x56, 0x78};
     EXPECT_EQ(bits_in({.bytes = 4, .low = 0, .high = 31}, bytes), 0x12345678u);
@@ -44,7 +42,7 @@ TEST(RegisterField, ItsBytesAreThoseOfItsBits) {
 }
 
 TEST(RegisterField, NumbersAreHeldAtTheEndsOfTheField) {
-    const RegisterField s{.low = 0, .high = 7, .kind = Kind::kSigned}, u{.low = 8, .high = 15};
+    const RegisterField s{.low = 0, .high = 7, .kind = RegisterField::Kind::kSigned}, u{.low = 8, .high = 15};
     EXPECT_EQ(bits_of(s, -3), 0xFDu);
     EXPECT_EQ(number_of(s, 0xFD), -3);
     EXPECT_EQ(number_of(s, bits_of(s, 1e9)), 127);
@@ -53,7 +51,7 @@ TEST(RegisterField, NumbersAreHeldAtTheEndsOfTheField) {
     EXPECT_EQ(bits_of(u, -1), 0u);
     EXPECT_EQ(bits_of(u, 2.6), 3u);
     EXPECT_EQ(bits_of(u, std::nan("")), 0u);
-    const RegisterField f{.bytes = 4, .kind = Kind::kFloat};
+    const RegisterField f{.bytes = 4, .kind = RegisterField::Kind::kFloat};
     EXPECT_EQ(number_of(f, bits_of(f, 0.25)), 0.25);
     EXPECT_TRUE(std::isfinite(number_of(f, bits_of(f, 1e300))));
 }
