@@ -96,11 +96,13 @@ class Binder:
         if selector in SELECTED:
             found = [(entry, SELECTED[selector][entry.name]) for entry in entries if entry.name in SELECTED[selector]]
             return found or ([(entries[0], "FrameStart")] if selector == "TriggerSelector" else [])
-        for name in PREFERRED.get(selector, ()):
-            for entry in entries:
-                if entry.name == name:
-                    return [(entry, "")]
-        return [(entries[0], "")]
+        names = [entry.name for entry in entries]
+        best = next((entries[names.index(name)] for name in PREFERRED.get(selector, ()) if name in names), entries[0])
+        found = [(best, "")]
+        if self.ev.terminal(selector) is None:  # clients begin with the description's own
+            found += [(entry, "") for entry in entries
+                      if entry is not best and entry.number("Value") == self.ev.value(selector)]
+        return found
 
     def _places(self, selector, name):
         found = {}
