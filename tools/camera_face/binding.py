@@ -7,16 +7,9 @@ of the selectors above it.
 from . import fit as fits
 from .evaluator import Evaluator, NoValue
 from .formula import FormulaError
-from .roles import BY_NAME, PREFERRED, ROLES, SELECTED, entry_of, to_hilcam
+from .roles import BY_NAME, COMPUTED, COUNTED, KNIVES, PREFERRED, ROLES, SELECTED, entry_of, to_hilcam
 
 REFUSED = (NoValue, FormulaError, OverflowError, KeyError, ValueError)
-
-
-# What a formula of a register may be: what depends on nothing else that changes.
-COMPUTED = ("SensorWidth", "SensorHeight", "WidthMax", "HeightMax", "DeviceTemperature", "AcquisitionResultingFrameRate")
-COUNTED = ("SensorWidth", "SensorHeight", "WidthMax", "HeightMax", "Width", "Height", "OffsetX", "OffsetY", "PayloadSize",
-           "BinningHorizontal", "BinningVertical", "AcquisitionFrameCount", "TLParamsLocked")
-KNIVES = ("SwissKnife", "IntSwissKnife")
 
 
 class Binder:
@@ -30,7 +23,7 @@ class Binder:
         self.live = set()  # those that hilcam serves itself
         self.bound = {}  # vendor's feature: (role, its value at the start)
         self.initial = []  # (selector, entry's value) that the registers begin with
-        self.taken = {}
+        self.taken, self.fields = {}, []
 
     def bind(self):
         for role in ROLES:
@@ -96,11 +89,13 @@ class Binder:
         if selector in SELECTED:
             found = [(entry, SELECTED[selector][entry.name]) for entry in entries if entry.name in SELECTED[selector]]
             return found or ([(entries[0], "FrameStart")] if selector == "TriggerSelector" else [])
-        for name in PREFERRED.get(selector, ()):
-            for entry in entries:
-                if entry.name == name:
-                    return [(entry, "")]
-        return [(entries[0], "")]
+        names = [entry.name for entry in entries]
+        best = next((entries[names.index(name)] for name in PREFERRED.get(selector, ()) if name in names), entries[0])
+        found = [(best, "")]
+        if self.ev.terminal(selector) is None:  # clients begin with the description's own
+            found += [(entry, "") for entry in entries
+                      if entry is not best and entry.number("Value") == self.ev.value(selector)]
+        return found
 
     def _places(self, selector, name):
         found = {}
@@ -134,12 +129,18 @@ class Binder:
             if self.taken[key] == role.feature:
                 self.bound.setdefault(name, (role, self.camera.values.get(role.feature)))
             return self.taken[key] == role.feature
+        bits = self._bits(place_node)
+        if role.kind != "command" and any(bits & other and (when or []) == guards for other, guards in self.fields):
+            self.notes.append(f"{name}: its bits are another feature's")
+            return False
         made = {"command": self._command, "choice": self._choice, "switch": self._switch}.get(role.kind, self._number)(
             role, name, place_node, row)
         if not made:
             return False
         self.taken[key] = role.feature
         self.rows.append(row)
+        if role.kind != "command":
+            self.fields.append((bits, when or []))
         self._hold(place_node)
         self.live |= self._bits(place_node)
         if role.kind != "command":
@@ -366,6 +367,7 @@ class Binder:
             self._hold(terminal)
             if not static and self.ev.length(terminal) <= 8:
                 self.live |= self._bits(terminal)
+                self.fields.append((self._bits(terminal), []))
                 self.rows.append({"feature": role.feature, "of": tag.lower(), "at": self.place(terminal), "formula": formula})
 
     # --- registers

@@ -69,6 +69,9 @@ def bound(description, camera, registers_file=None, more=()):
         if address >> 2 in recorded and text:
             identity[key] = text
     standard = bootstrap.put(memory, {0x48: identity["vendor"], 0x68: identity["model"], 0x88: identity.get("version", "1.0")})
+    for _, node, _ in more:
+        if node not in description.nodes:
+            raise DescriptionError(f"--map: {description.path} has no node '{node}'")
     binder = Binder(description, camera, memory, more)
     binder.held |= standard
     binder.held |= {bit for word in recorded for bit in range(32 * word, 32 * word + 32)}

@@ -53,6 +53,11 @@ ROLES = (
     Role("UserSetSelector", ("UserSetSelector",), "choice"),
     Role("UserSetLoad", ("UserSetLoad",), "command"), Role("UserSetSave", ("UserSetSave",), "command"),
 )
+# What a formula of a register may be: what depends on nothing else that changes.
+COMPUTED = ("SensorWidth", "SensorHeight", "WidthMax", "HeightMax", "DeviceTemperature", "AcquisitionResultingFrameRate")
+COUNTED = ("SensorWidth", "SensorHeight", "WidthMax", "HeightMax", "Width", "Height", "OffsetX", "OffsetY", "PayloadSize",
+           "BinningHorizontal", "BinningVertical", "AcquisitionFrameCount", "TLParamsLocked")
+KNIVES = ("SwissKnife", "IntSwissKnife")
 BY_NAME = {name: role for role in ROLES for name in role.names}
 
 # The entry of a selector that hilcam's single feature is, best first; where none is there, the first one.

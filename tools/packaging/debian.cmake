@@ -62,7 +62,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
 # ZeroMQ is loaded when a scenario has Basilisk for its simulator (io/vizard/reply_socket.cpp), compressions of packets when one is asked
 # for (io/system/loaded_library.h).
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "hilcam-examples${maps_package}, libzmq5, python3-matplotlib")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "aravis-tools, aravis-tools-cli, libaec0, libcharls2, libopenjp2-7")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "aravis-tools, aravis-tools-cli, gir1.2-aravis-0.8, libaec0, libcharls2, libopenjp2-7, python3-gi, python3-yaml")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "spacecraft's visible camera for the test bench
 hilcam stands in for a spacecraft's visible camera in hardware-in-the-loop
 tests. A real-time loop takes poses over UDP, TCP or USB, ray-traces what the

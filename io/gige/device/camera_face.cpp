@@ -249,7 +249,7 @@ Status CameraFace::write(std::uint32_t address, std::span<const std::uint8_t> da
     done = 0;
     if (address % 4 != 0 || data.size() % 4 != 0) return Status::kBadAlignment;
     if (address >= xml_place_ && address - xml_place_ < xml_bytes_) return Status::kWriteProtect;
-    if (data.size() > 0xFFFFFFFFu - address) return Status::kInvalidAddress;
+    if (!data.empty() && data.size() - 1 > 0xFFFFFFFFu - address) return Status::kInvalidAddress;
     // The standard's registers know their own sizes.
     while (done < data.size()) {
         const std::uint32_t here = address + static_cast<std::uint32_t>(done);
@@ -258,10 +258,12 @@ Status CameraFace::write(std::uint32_t address, std::span<const std::uint8_t> da
         if (standard) {
             bytes = std::min<std::size_t>(standard->bytes - (here - standard->address), data.size() - done);
         } else {
-            while (done + bytes < data.size() && !is_standard(here + static_cast<std::uint32_t>(bytes)))
-                bytes += 4;
+            for (; done + bytes < data.size(); bytes += 4) {
+                const std::uint32_t word = here + static_cast<std::uint32_t>(bytes);
+                if (is_standard(word)) break;
+                if (is_read_only(word)) return Status::kWriteProtect;
+            }
         }
-        if (!standard && is_read_only(here)) return Status::kWriteProtect;
         const Status status = write_words(here, data.subspan(done, bytes), locked);
         if (status != Status::kSuccess) return status;
         done += bytes;

@@ -134,8 +134,13 @@ TEST(CameraFace, EverythingElseIsMemory) {
     EXPECT_EQ(b.read(0xF0F00614), 0x12345678u);
     EXPECT_EQ(b.write64(0x30000000, 0x0102030405060708), gvcp::kSuccess);
     EXPECT_EQ(b.read64(0x30000000), 0x0102030405060708u);
+    EXPECT_EQ(b.write(0xFFFFFFFC, 5), gvcp::kSuccess);
+    EXPECT_EQ(b.read(0xFFFFFFFC), 5u);
+    EXPECT_EQ(b.write64(0xFFFFFFFC, 5), gvcp::kInvalidAddress);
     EXPECT_EQ(b.read(kSerial), 0x01020304u);
     EXPECT_EQ(b.write(kSerial, 0), gvcp::kWriteProtect);
+    EXPECT_EQ(b.write64(kReset, 0), gvcp::kWriteProtect);  // its second half is kSerial
+    EXPECT_EQ(b.read(kSerial), 0x01020304u);
     EXPECT_EQ(b.send(gvcp::kReadRegister, b.words({0x30000002})).status, gvcp::kBadAlignment);
     // hilcam's own features are not where they are without a face.
     EXPECT_EQ(b.read(feature_register::kWidth), 0u);
