@@ -17,8 +17,8 @@ struct RoundedMoments {
 RoundedMoments rounded_moments(double mean_dn, double sigma_dn);
 
 // Returns the variance before rounding [DN^2] of pixels that have, after it, these means and on average this
-// variance; 0 when the noise does not reach the next step. mean_dn: over the selection's rectangle. The means'
-// own errors s [DN] blur the effect: a share 2 pi^2 s^2 of the correction is missed.
+// variance; 0 when the noise does not reach the next step. mean_dn: over the selection's rectangle. The
+// means' own errors s [DN] blur the effect: a share 2 pi^2 s^2 of the correction is missed.
 double variance_before_rounding_dn2(std::span<const double> mean_dn, const PixelSelection& selection,
                                     double variance_dn2);
 
