@@ -16,6 +16,14 @@ constexpr double kNearEnd = 0.9;
 constexpr double kClearStates = 4;
 constexpr int kShadingOrder = 4;
 
+// Means of rows and columns contain a share of the scatter of their pixels, which also multiplies with the
+// lines' own deviations: to first order that adds the pixels' variance over their number.
+void add_scatter(Nonuniformity& n, double pixel_variance, const PixelSelection& good) {
+    const double error = std::sqrt(std::max(pixel_variance, 0.0) / static_cast<double>(good.count()));
+    n.row.uncertainty = std::hypot(n.row.uncertainty, error);
+    n.column.uncertainty = std::hypot(n.column.uncertainty, error);
+}
+
 class MapMaker {
   public:
     MapMaker(const MapWork& work, CloneMeasurement& out)
@@ -25,6 +33,12 @@ class MapMaker {
         make_dark_line();
         make_gain();
         make_prnu();
+        add_scatter(out_.dsnu_e, out_.offset_e.spread.measured.pixel / square(k_), out_.good);
+        add_scatter(out_.prnu_fraction,
+                    square(out_.prnu_fraction.pixel.value) + half_level().point.light.pixel_dn2() /
+                                                                 frames(half_level().series) /
+                                                                 square(half_level().point.signal_dn()),
+                    out_.good);
         list_defects();
         finish_maps();
     }

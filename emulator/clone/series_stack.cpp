@@ -113,7 +113,7 @@ PixelFaults find_faults(const FrameSet& set, std::span<const SeriesStack> stacks
     PixelFaults out;
     out.noisy.assign(whole.use.size(), 0), out.hot = out.weak = out.noisy;
     // Steps that rounding can make between pixels that are the same.
-    constexpr double kLeastMean_dn = 0.05, kLeastNoise = 0.1, kLeastGain = 1e-4;
+    constexpr double kLeastMean_dn = 0.05, kLeastNoise = 0.04, kLeastGain = 1e-4;
     out.good = outliers_of(brief.mean, whole, kLeastMean_dn).rest;
 
     // The cube root of a chi-square variate is Gaussian (Wilson & Hilferty, PNAS 17, 1931).

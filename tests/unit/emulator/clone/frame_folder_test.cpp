@@ -121,7 +121,7 @@ TEST_F(FrameFolder, AManifestMakesSeriesOfRawFiles) {
     }
     const std::string yaml =
         "header_bytes: 4\nbyte_order: big\nshift_bits: 4\nseries:\n"
-        "  - {kind: dark, exposure_ms: 1, files: a?.raw}\n"
+        "  - {kind: dark, exposure_ms: 1, files: \"a?.raw\"}\n"
         "  - {kind: flat, exposure_ms: 1, light: 4, files: [\"b*.raw\"]}\n"
         "  - {kind: flat, exposure_ms: 1, light: 8, files: [\"c*.raw\"]}\n";
     manifest(yaml);
@@ -143,7 +143,7 @@ TEST_F(FrameFolder, WhatCannotBeReadIsNamed) {
     EXPECT_THAT(message(), HasSubstr("frames.yaml:1:9: series: "));
     manifest("series:\n  - {kind: bright, exposure_ms: 1, files: x}\n");
     EXPECT_THAT(message(),
-                HasSubstr("frames.yaml:2:12: series.0.kind: found 'bright'; accepted: dark, flat"));
+                HasSubstr("frames.yaml:2:12: series.0.kind: found 'bright'; accepted: dark | flat"));
     manifest("series:\n  - {kind: dark, exposure_ms: 1, files: x*.png}\n");
     EXPECT_THAT(message(),
                 HasSubstr("series.0.files: found no file like 'x*.png'; accepted: names in that folder"));
