@@ -83,8 +83,8 @@ TEST(Thermal, TheEarthsHeatIsReflected) {
     s.quality.max_depth = 2;
     s.quality.samples_per_axis = 4;
     s.earth(0.3);
-    constexpr double kDistance_m = 2 * kEarthEquatorialRadius_m;
-    s.world.bodies[BodyId::kEarth].world_m = {0, 0, -kDistance_m};
+    constexpr double kEarthDistance_m = 2 * kEarthEquatorialRadius_m;
+    s.world.bodies[BodyId::kEarth].world_m = {0, 0, -kEarthDistance_m};
     s.add(plate(grey(kModel<brdf::Lambert>, 0.4, 0), s.grid), {0, 0, 1});
     s.render();
     const double expected = 0.6 * static_cast<double>(planck_w_m2_sr_um(s.grid, 254)[0]) / 4;
