@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const TimeTai kTime = parse_utc("2026-03-20T14:00:00Z");
-const Quat kQuarterAboutZ = from_rotation_vector({0, 0, kPi / 2});
+const Quat kQuarterTurn42 = from_rotation_vector({0, 0, kPi / 2});
 
 Ip42BodyConfig moves(const std::string& body, const std::string& thing, std::int64_t joint = 0) {
     Ip42BodyConfig c;
@@ -38,7 +38,7 @@ class Ip42WorldTest : public testing::Test {
         m.orbits[0] = {Vec3d{7e6, 0, 0}, Vec3d{0, 7500, 0}};
         m.spacecraft[0].position_r_m = Vec3d{1, 2, 3};
         m.spacecraft[0].velocity_r_m_s = Vec3d{0.1, 0, 0};
-        m.spacecraft[0].bodies[0] = {kQuarterAboutZ, Vec3d{0, 0, 0.5}};
+        m.spacecraft[0].bodies[0] = {kQuarterTurn42, Vec3d{0, 0, 0.5}};
         m.spacecraft[1].position_r_m = Vec3d{0, 50, 0};
         m.spacecraft[1].velocity_r_m_s = Vec3d{0, 1, 0};
         m.spacecraft[1].bodies[0] = {Quat{}, Vec3d{}};
