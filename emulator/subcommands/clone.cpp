@@ -87,9 +87,8 @@ void add_clone_command(CLI::App& app, Action& action) {
     command->add_option("--report", o->report,
                         "folder for a page that lays the frames beside those of the emulated camera");
     command->add_flag("--json", o->json, "machine-readable");
-    set_examples(command,
-                 {"hilcam clone my_frames --like mv_imx249 --out my_camera.yaml",
-                  "hilcam clone my_frames --like mv_imx249 --out mine.yaml --report report"});
+    set_examples(command, {"hilcam clone my_frames --like mv_imx249 --out my_camera.yaml",
+                           "hilcam clone my_frames --like mv_imx249 --out mine.yaml --report report"});
     when_named(command, action, o, carry_out);
 }
 

@@ -124,8 +124,8 @@ Material modelled(const MaterialConfig& config, const SpectralGrid& grid,
 Material of_emissivity(const MaterialConfig& config, const SpectralGrid& grid,
                        const std::shared_ptr<const BrdfTable>& table, Spectrum reflectance) {
     const Spectrum emissivity = grid.average(config.infrared_emissivity);
-    if (config.model == kModel<brdf::Veil>) {
-        // A veil's threads alone have it.
+    if (config.model == kModel<brdf::Veil> || config.model == kModel<brdf::Lambert>) {
+        // Their reflectance is what they reflect: a veil by its threads.
         for (int b = grid.solar_bins(); b < grid.size(); ++b) reflectance[b] = 1 - emissivity[b];
         return modelled(config, grid, table, reflectance);
     }

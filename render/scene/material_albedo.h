@@ -19,7 +19,7 @@ class MaterialAlbedo {
     struct Samples {
         int choices, grid;
     };
-    static constexpr Samples kUsual{8, 16}, kExact{64, 8};
+    static constexpr Samples kUsual{8, 16}, kExact{32, 16};
     explicit MaterialAlbedo(const Material& material, Samples samples = kUsual);
 
     // Returns the share that facets reflect directly; zero for materials without facets.

@@ -9,6 +9,12 @@ namespace hilcam {
 ThermalEmission::ThermalEmission(const Material& material, const SpectralGrid& grid, double temperature_k) {
     if (!(temperature_k > 0)) return;
     const Spectrum black = planck_w_m2_sr_um(grid, temperature_k);
+    if (std::holds_alternative<brdf::Lambert>(material.brdf)) {
+        // Its share is known exactly, which counts where it is nearly 1.
+        for (int b = 0; b < grid.size(); ++b) mean_[b] = (1 - material.base[b]) * black[b];
+        at_.fill(mean_);
+        return;
+    }
     const MaterialAlbedo albedo(material, MaterialAlbedo::kExact);
     const Bsdf surface{&material, material.ggx_alpha, material.base, material.highlight};
     for (std::size_t i = 0; i <= kSteps; ++i) {

@@ -18,6 +18,7 @@ void check_one_line(const std::string& text) { HILCAM_CHECK(text.find('\n') == s
 
 std::vector<Ip42BodyConfig> bodies() {
     std::vector<Ip42BodyConfig> list(4);
+    list[0].body = "SC[0].B[0]";
     for (std::size_t i = 1; i < list.size(); ++i) {
         list[i].body = "SC[1].B[" + std::to_string(i - 1) + "]";
         list[i].moves = "target";

@@ -42,6 +42,7 @@ install(DIRECTORY docs DESTINATION ${doc} COMPONENT program)
 install(FILES tools/client/README.md DESTINATION ${doc}/tools/client COMPONENT program)
 install(DIRECTORY tools/python DESTINATION ${doc}/tools COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY tools/ground_systems DESTINATION ${doc}/tools COMPONENT program)
+install(DIRECTORY tools/image_packets tools/nos3 tools/fprime DESTINATION ${doc}/tools COMPONENT program)
 # Debian has a licence file and a changelog of its own kind in their place (debian.cmake).
 install(FILES CHANGELOG.md LICENSE DESTINATION ${doc} COMPONENT texts)
 

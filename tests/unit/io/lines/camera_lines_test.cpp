@@ -137,9 +137,7 @@ TEST(CameraLines, ExposuresOneAfterTheOtherAreTwoPulses) {
 TEST(CameraLines, AnExposureThatATriggerTellsIsShownBeforeTheLoopHasIt) {
     Wires w;
     w.set([](LineSettings& s) { s.source[1] = LineSignal::kExposureActive; });
-    const auto told = [&](std::int64_t begin_us, std::int64_t end_us) {
-        w.exposure(begin_us, end_us);
-    };
+    const auto told = [&](std::int64_t begin_us, std::int64_t end_us) { w.exposure(begin_us, end_us); };
     told(500, 600);
     told(200, 300);
     w.tick(100);

@@ -332,7 +332,7 @@ TEST(Material, EveryModelHasTheEmissivityThatIsGiven) {
     for (const double emissivity : {0.2, 0.5, 0.85})
         for (const NamedMaterial& named : materials_with_emissivity(emissivity)) {
             const Material m = make_material(named.config, kThermalGrid);
-            const MaterialAlbedo albedo(m);
+            const MaterialAlbedo albedo(m, MaterialAlbedo::kExact);
             for (int b = 1; b < kThermalGrid.size(); ++b)
                 EXPECT_NEAR(albedo.white_base()[b] + albedo.white_lobe()[b], 1 - emissivity, 2e-3)
                     << named.name << " " << emissivity;
@@ -378,9 +378,8 @@ TEST(Material, TexturesEndWhereThermalBinsBegin) {
     MeshSurface painted;
     painted.base_color = {0.1f, 0.2f, 0.3f};
     painted.roughness = 0.5f;
-    EXPECT_NEAR(MaterialAlbedo(make_material(painted, kThermalGrid)).white_base()[2] +
-                    MaterialAlbedo(make_material(painted, kThermalGrid)).white_lobe()[2],
-                1 - kUnknownEmissivity, 2e-3);
+    const MaterialAlbedo albedo(make_material(painted, kThermalGrid), MaterialAlbedo::kExact);
+    EXPECT_NEAR(albedo.white_base()[2] + albedo.white_lobe()[2], 1 - kUnknownEmissivity, 2e-3);
 }
 
 // A place's parameters of Hapke's law stand for the material's: the same values as of a material that has them.
