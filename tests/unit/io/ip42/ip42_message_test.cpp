@@ -56,7 +56,8 @@ TEST(Ip42Message, TimeIsUtcByTheDayOfTheYear) {
     // A leap second, and 42's rounding of a second to be: both are the second after that of :59.
     EXPECT_EQ(time("2016-366-23:59:60.500000000") - time("2016-366-23:59:59.500000000"), kSecond_ns);
     EXPECT_EQ(time("2026-079-14:00:60.000000000"), parse_utc("2026-03-20T14:01:00Z"));
-    for (const char* bad : {"", "2026-079", "2026-000-00:00:00", "2025-366-00:00:00", "2026-079-24:00:00",
+    EXPECT_THAT(decode_ip42("TIME \n").refusal, HasSubstr("no TIME"));
+    for (const char* bad : {"2026-079", "2026-000-00:00:00", "2025-366-00:00:00", "2026-079-24:00:00",
                             "2026-079-00:60:00", "2026-079-00:00:61", "2026-079-00:00:nan",
                             "2026-079-00:00:-1", "1-1-1:1", "9999-079-00:00:00", "2026-03-20T00:00:00Z"})
         EXPECT_THAT(decode_ip42("TIME " + std::string(bad) + "\n").refusal, HasSubstr("accepted: YYYY-DDD"))

@@ -98,7 +98,8 @@ TEST_F(Ip42WorldTest, AnOriginThatTurnsIsTakenOff) {
     m.spacecraft[1].position_r_m = m.spacecraft[1].velocity_r_m_s = Vec3d{};
     const std::vector<Command> out = commands(m);
     expect_near(pose(out[1]).motion.pose.position_world_m, {}, 1e-6);
-    expect_near(pose(out[1]).motion.velocity_world_m_s, {}, 1e-3);
+    // The velocity of the place is a difference over a minute (bodies.cpp): (w 30 s)^2 / 6 of 3 km/s too small.
+    expect_near(pose(out[1]).motion.velocity_world_m_s, {}, 3e-3);
 }
 
 // Mars: alpha 317.681 deg, delta 52.887 deg, the pole of 42's World[MARS] (IAU). N's z is the pole, N's x its
@@ -183,8 +184,9 @@ TEST_F(Ip42WorldTest, WhatAMessageLacksIsNamedOnceAndMovesNothing) {
     m = message();
     m.spacecraft[0].position_r_m = Vec3d{1e16, 0, 0};
     EXPECT_EQ(world.commands_of(m).size(), 1u);
-    EXPECT_THAT(said, ElementsAre(HasSubstr("no Orb[0].PosN"), HasSubstr("no SC[1].PosR"),
-                                  HasSubstr("no SC[0].B[0].qn"), HasSubstr("SC[0].B[0]: a place 1e+16 m")));
+    EXPECT_THAT(
+        said, ElementsAre(HasSubstr("no Orb[0].PosN"), HasSubstr("no SC[1].PosR"),
+                          HasSubstr("no SC[0].B[0].qn"), HasSubstr("SC[0].B[0]: a place 1.000000001e+16 m")));
 }
 
 TEST_F(Ip42WorldTest, ASunElsewhereIsNamed) {
