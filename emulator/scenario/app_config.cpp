@@ -84,7 +84,7 @@ Fields fields(ScenarioConfig& s) {
                 "land, sea, clouds and lights of the Earth (docs/earth.md)"),
         section("stars", s.stars, "stars in the sky"),
         numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {kShortest_um, kLongest_um}, {2, kMaxBins + 1},
-                "edges of the spectral bins; beyond 2.5 they are thermal (docs/thermal.md)"),
+                "edges of the spectral bins; beyond 2.5 um bins are thermal"),
         optional(section("rays", s.models.rays,
                          "ray model of the pixels, where it differs from that of the camera's shutter"),
                  s.has_rays),

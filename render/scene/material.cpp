@@ -31,7 +31,9 @@ std::vector<std::string> keys_of(std::size_t model) {
 
 std::string why_idle(const MaterialConfig& c, const std::string& key) {
     std::vector<std::string> taken = keys_of(c.model);
-    taken.insert(taken.end(), {"temperature_k", "infrared_emissivity", "source", "model"});
+    taken.insert(taken.end(), {"temperature_k", "source", "model"});
+    // Glass has that of its reflection.
+    if (c.model != kModel<brdf::Glass>) taken.emplace_back("infrared_emissivity");
     if (std::find(taken.begin(), taken.end(), key) != taken.end()) return {};
     // A surface emits what it does not reflect, whatever its model.
     if (key == "reflectance" && c.temperature_k > 0) return {};

@@ -38,7 +38,7 @@ TEST_F(BlackBody, APlatesNumbersAreThoseOfItsTemperature) {
         const auto file =
             write("plate.yaml",
                   "time_utc: 2026-06-21T00:00:00Z\norigin: {kind: free}\nsun: {direction: [0, 0, 1]}\n"
-                  "radiance: emissive\nspectrum_edges_um: [3.4, 3.7, 4.0, 4.3, 4.6, 5.0]\n"
+                  "radiance: emissive\nspectrum_edges_um: [3.4, 3.6, 3.8, 4.0, 4.2, 4.4, 4.6, 4.8, 5.0]\n"
                   "camera: {name: cooled, width_px: 64, height_px: 64, pitch_um: 15, focal_length_mm: 50,\n"
                   "  f_number: 2.5, transmission: 0.85, quantum_efficiency: 0.8, full_well_e: 7e6,\n"
                   "  gain_e_dn: 440, offset_dn: 100, bits: 14, exposure_ms: 3}\n"

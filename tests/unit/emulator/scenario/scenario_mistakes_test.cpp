@@ -101,7 +101,7 @@ const Mistake kMistakes[] = {
     {"DataSheetsWord", 11, "  full_well_capacity: 13500", "11:3",
      "a data sheet's word? here it is full_well_e: in electrons"},
     {"Nanometres", 25, "spectrum_edges_um: [400, 950]", "25:21",
-     "found '400'; accepted: a number, 0.2 to 2.5"},
+     "found '400'; accepted: a number, 0.2 to 20"},
     {"CurveInNanometres", 10, "  quantum_efficiency: [[400, 0.3], [900, 0.5]]", "10:25",
      "in nanometres? here it would be 0.4"},
     // Time.
