@@ -327,14 +327,16 @@ std::vector<NamedMaterial> materials_with_emissivity(double emissivity) {
 }
 
 // Whatever a model's reflectance means, its emissivity is the one that is given, down to what it can reflect at
-// most: 0.8 of all light with rough regolith.
+// most: 0.8 of all light with rough regolith. Phong's two parts change their shares of the samples with their
+// reflectance, by whole samples.
 TEST(Material, EveryModelHasTheEmissivityThatIsGiven) {
     for (const double emissivity : {0.2, 0.5, 0.85})
         for (const NamedMaterial& named : materials_with_emissivity(emissivity)) {
             const Material m = make_material(named.config, kThermalGrid);
             const MaterialAlbedo albedo(m, MaterialAlbedo::kExact);
+            const double limit = named.config.model == kModel<brdf::Phong> ? 0.015 : 2e-3;
             for (int b = 1; b < kThermalGrid.size(); ++b)
-                EXPECT_NEAR(albedo.white_base()[b] + albedo.white_lobe()[b], 1 - emissivity, 2e-3)
+                EXPECT_NEAR(albedo.white_base()[b] + albedo.white_lobe()[b], 1 - emissivity, limit)
                     << named.name << " " << emissivity;
         }
 }
