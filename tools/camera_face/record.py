@@ -1,8 +1,10 @@
 """Reads every register of a real camera into a registers file, with Aravis."""
+import io
 import pathlib
 import re
 import socket
 import sys
+import zipfile
 
 from .binding import REFUSED
 from .description import REGISTERS, Description, DescriptionError
@@ -10,6 +12,8 @@ from .evaluator import Evaluator
 from .registers import Memory, write_file
 
 MOST_STATES = 64
+FIRST_URL, SECOND_URL, URL_BYTES = 0x200, 0x400, 512
+MOST_DESCRIPTION_BYTES = 8 << 20
 
 
 class DeviceMemory(Memory):
@@ -60,15 +64,32 @@ def own_address(address):
         return probe.getsockname()[0]
 
 
+def description_of(memory):
+    """Returns the XML where the first URL of the bootstrap registers says it is (GigE Vision 2.0, 16.2). Aravis's own text of it
+    has no certain end in Python."""
+    for register in FIRST_URL, SECOND_URL:
+        url = memory.read(register, URL_BYTES).split(b"\0")[0].decode("latin-1")
+        place = re.fullmatch(r"(?i)local:(?:///)?([^;]*);(?:0x)?([0-9a-f]+);(?:0x)?([0-9a-f]+)(?:\?.*)?", url)
+        if not place:
+            continue
+        at, size = int(place[2], 16), int(place[3], 16)
+        if size > MOST_DESCRIPTION_BYTES:
+            raise DescriptionError(f"{url}: {size} bytes; accepted: at most {MOST_DESCRIPTION_BYTES}")
+        content = DeviceMemory(memory.device).read(at, size)
+        if not content.startswith(b"PK"):
+            return content.rstrip(b"\0")
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            return archive.read(archive.namelist()[0])
+    raise DescriptionError("the camera names no description of its own; accepted: a URL that begins with 'Local:'")
+
+
 def record(address, out):
     """Writes OUT.xml and OUT. Nothing in the camera changes: selectors are walked only where they are the client's own."""
     device = open_device(address)
-    xml, size = device.get_genicam_xml()
-    xml = (xml if isinstance(xml, str) else bytes(xml).decode("utf-8", "replace")).encode()[:size or None]
-    xml_file = pathlib.Path(out).with_suffix(".xml")
-    xml_file.write_bytes(xml)
-    description = Description(xml_file)
     memory = DeviceMemory(device)
+    xml_file = pathlib.Path(out).with_suffix(".xml")
+    xml_file.write_bytes(description_of(memory))
+    description = Description(xml_file)
     evaluator = Evaluator(description, memory)
     names = [name for name, node in description.nodes.items() if node.tag in REGISTERS and description.on_device(node)]
     for name in names:
