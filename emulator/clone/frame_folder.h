@@ -16,9 +16,10 @@ struct RawShape {
     std::int64_t width_px = 0, height_px = 0, bits = 0;
 };
 
-// like: the camera whose size and bits hold where nothing else says them. Files are read when their frames
-// are asked for; frames are kept in memory up to 2 GB. Throws InputError for a folder without frames, a
-// manifest that is not one, names that no file has, and pictures of another size than the first.
+// like: the camera file that gives the size and the bits when neither the files nor the manifest do. Files
+// are read when their frames are asked for; frames are kept in memory up to 2 GB. Throws InputError for a
+// folder without frames, a manifest that is not one, names that no file has, and pictures of another size
+// than the first.
 FrameSet read_frame_folder(const std::filesystem::path& folder, const RawShape& shape,
                            const CameraModel& like);
 

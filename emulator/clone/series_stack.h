@@ -41,7 +41,7 @@ std::vector<PixelSelection> color_planes(const CameraModel& like, int width, int
 PixelSelection both(PixelSelection a, const PixelSelection& b);
 // Returns the good pixels of the colour plane that has most of them.
 PixelSelection largest_plane(const PixelSelection& good, const CameraModel& like);
-// Returns the flat whose mean is in the middle of the others'.
+// Returns the flat with the median mean.
 std::size_t middle_flat(const FrameSet& frames, std::span<const SeriesStack> stacks);
 
 // Keeps the good pixels of the largest colour plane that are lit within 3 % of the brightest (EMVA 1288,

@@ -71,7 +71,7 @@ double FrameStarter::exposure_of(const CameraSettings& s) const {
     return s.automatic_exposure && own_exposure_s_ > 0 ? own_exposure_s_ : s.exposure_s;
 }
 
-// Chooses the set of a frame whose begin is known.
+// Applies the sequencer's set to a frame; the time at which its exposure begins must be known by then.
 void FrameStarter::use_sequencer(Start& start) {
     start.sequencer_set =
         settings_.sequencer_in_loop().begin(clock_.monotonic_of_camera(start.camera_ns), start.settings);

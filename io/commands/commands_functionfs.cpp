@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "io/commands/command_station.h"
+#include "io/commands/functionfs_control.h"
 #include "io/commands/functionfs_descriptors.h"
 #include "io/commands/linux_aio.h"
 #include "io/commands/usb_answers.h"
@@ -182,11 +183,7 @@ void FunctionFsReceiver::take_events() {
                 disable();
                 break;
             case FUNCTIONFS_SETUP:
-                // We handle no control requests: input or output in the wrong direction stalls.
-                if (events[i].u.setup.bRequestType & USB_DIR_IN) [[maybe_unused]]
-                    const auto got = ::read(control_.get(), nullptr, 0);
-                else [[maybe_unused]]
-                    const auto put = ::write(control_.get(), nullptr, 0);
+                refuse_request(control_, events[i]);
                 break;
             default:
                 break;

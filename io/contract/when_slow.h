@@ -35,4 +35,10 @@ inline std::string report_of_drops(const std::string& key, const std::filesystem
            ".when_slow: wait, which loses none, drop, which allows it, or a larger every_nth";
 }
 
+// Returns the message that frames could not be written. first: why the first of them was lost.
+inline std::string report_of_failures(const std::string& first, std::uint64_t failed) {
+    return first +
+           (failed == 1 ? " (1 frame lost)" : " (the first of " + std::to_string(failed) + " frames lost)");
+}
+
 }  // namespace hilcam

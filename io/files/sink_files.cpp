@@ -116,10 +116,7 @@ bool FilesSink::has_fault() const noexcept {
 
 // Reports files that could not be written before frames that came too fast.
 std::string FilesSink::report_of_loss() const {
-    if (failed_ > 0)
-        return first_failure_ + (failed_ == 1
-                                     ? " (1 frame lost)"
-                                     : " (the first of " + std::to_string(failed_) + " frames lost)");
+    if (failed_ > 0) return report_of_failures(first_failure_, failed_);
     const std::uint64_t dropped = mailbox_.dropped();
     return dropped == 0 || config_.when_slow == WhenSlow::kDrop
                ? ""

@@ -20,7 +20,7 @@
 #include "io/system/fd.h"
 #include "io/system/monotonic.h"
 #include "io/system/tcp_peer.h"
-#include "io/system/unix_listener.h"
+#include "io/system/unix_socket_file.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -117,11 +117,9 @@ class PacketStreamServer : public PacketTransport {
     }
 
     void open() override {
-        if (config_.has_path())
-            unix_listener_.open(config_.path.string());
-        else
-            tcp_listener_ = listen_tcp(parse_ipv4(config_.address, "outputs.packets.address"),
-                                       static_cast<std::uint16_t>(config_.port));
+        listener_ = config_.has_path() ? file_.listen(config_.path.string(), SOCK_STREAM)
+                                       : listen_tcp(parse_ipv4(config_.address, "outputs.packets.address"),
+                                                    static_cast<std::uint16_t>(config_.port));
     }
     bool begin_frame(std::uint64_t) override {
         while (accept_one()) {
@@ -138,8 +136,8 @@ class PacketStreamServer : public PacketTransport {
     }
     void close() noexcept override {
         peers_.clear();
-        tcp_listener_.reset();
-        unix_listener_.close();
+        listener_.reset();
+        file_.remove();
     }
 
   private:
@@ -153,8 +151,7 @@ class PacketStreamServer : public PacketTransport {
         });
     }
     bool accept_one() {
-        const Fd& listener = config_.has_path() ? unix_listener_.socket() : tcp_listener_;
-        Fd socket(accept4(listener.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+        Fd socket(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
         if (!socket) return false;
         std::string peer = "a client";
         if (allow_ && !admit_tcp(*allow_, socket.get(), peer)) {
@@ -172,8 +169,8 @@ class PacketStreamServer : public PacketTransport {
 
     PacketsConfig config_;
     std::optional<AllowList> allow_;
-    Fd tcp_listener_;
-    UnixListener unix_listener_;
+    UnixSocketFile file_;
+    Fd listener_;
     std::list<PacketStreamPeer> peers_;
 };
 

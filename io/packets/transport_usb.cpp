@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "io/commands/functionfs_control.h"
 #include "io/commands/functionfs_descriptors.h"
 #include "io/commands/linux_aio.h"
 #include "io/packets/packet_stream_peer.h"
@@ -154,11 +155,7 @@ class UsbTransport : public PacketTransport {
                     enabled_ = false;
                     break;
                 case FUNCTIONFS_SETUP:
-                    // We handle no control requests: input or output in the wrong direction stalls.
-                    if (events[i].u.setup.bRequestType & USB_DIR_IN) [[maybe_unused]]
-                        const auto got = ::read(control_.get(), nullptr, 0);
-                    else [[maybe_unused]]
-                        const auto put = ::write(control_.get(), nullptr, 0);
+                    refuse_request(control_, events[i]);
                     break;
                 default:
                     break;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -58,6 +60,11 @@ Fields fields(BodyHeatConfig& c) {
         number("night_k", c.night_k, 1, {0, 6000}, "temperature of the night side"),
         number("emissivity", c.emissivity, 1, {0, 1}, "emissivity beyond 2.5 um"),
     };
+}
+
+void validate(const BodyHeatConfig& c) {
+    if (c.night_k > c.noon_k)
+        throw refused_key("night_k", plain(c.night_k), "at most noon_k, which is " + plain(c.noon_k));
 }
 
 BodyHeat::BodyHeat(const BodyHeatConfig& c, const SpectralGrid& grid) : solar_bins_(grid.solar_bins()) {

@@ -27,6 +27,8 @@ struct BodyHeatConfig {
 // (Pearl & Conrath, J. Geophys. Res. 96, 18921, 1991).
 BodyHeatConfig default_heat(BodyId id);
 Fields fields(BodyHeatConfig& config);
+// Throws KeyError for a night that is hotter than noon.
+void validate(const BodyHeatConfig& config);
 
 class BodyHeat {
   public:

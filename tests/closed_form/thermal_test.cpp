@@ -67,7 +67,7 @@ TEST(Thermal, ParallelSquaresExchangeByHamiltonAndMorgan) {
     }
 }
 
-// The Earth as an even body of 254 K fills the view, and warms a mirror that shows it.
+// The Earth as an even body of 254 K fills the view.
 TEST(Thermal, AnEvenEarthHasItsRadiance) {
     Stage s = thermal_stage("direct");
     s.earth(0.3);

@@ -4,10 +4,11 @@
 // memory. The standard's registers, below kFirstOfDevice, stay hilcam's own. One thread: the one that
 // serves the control port.
 //
-// A write goes field by field: fields whose bits change are set, then commands run; the first that refuses
-// ends the write and leaves the registers as they were. A row whose guards (the vendor's selectors) do not
-// hold is memory for that time. Formulas invert with rounding, so a number that hilcam took reads back as
-// the number that was written.
+// A write to a register first sets each feature whose bits it changes, and then runs the commands whose bits
+// it sets. If one of them is refused, the client gets an error and the memory keeps its old bytes; features
+// that were set before it stay set. A row of the table may depend on the vendor's selectors; while they have
+// other values, its register is plain memory. Formulas invert with rounding, so a number that hilcam took
+// reads back as the number that was written.
 
 #include <cstdint>
 #include <map>

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "io/packets/packet_stream_peer.h"
-#include "io/system/unix_listener.h"
+#include "io/system/unix_socket_file.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
@@ -211,8 +211,8 @@ TEST_F(PacketsSinkTest, AReceiverMayComeLater) {
     sink.start();
     publish(sink, 1, 5);
     while (sink.report().unwanted < 5) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    UnixListener listener;
-    listener.open(config.path.string());
+    UnixSocketFile file;
+    const Fd listener = file.listen(config.path.string(), SOCK_STREAM);
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
     publish(sink, 6, 6);
     sink.stop();
@@ -278,13 +278,14 @@ TEST_F(PacketsSinkTest, TheReportSaysHowMuchACompressionGains) {
 
 TEST_F(PacketsSinkTest, AListeningSocketThatIsTakenOrIsNoSocketIsNamed) {
     const std::string path = (folder_ / "socket").string();
-    UnixListener first, second;
-    first.open(path);
-    EXPECT_THROW(second.open(path), DeviceError);
-    first.close();
+    UnixSocketFile first, second;
+    Fd listener = first.listen(path, SOCK_STREAM);
+    EXPECT_THROW(second.listen(path, SOCK_STREAM), DeviceError);
+    listener.reset();
+    first.remove();
     EXPECT_FALSE(std::filesystem::exists(path));
     std::ofstream(path) << "a file";
-    EXPECT_THROW(second.open(path), DeviceError);
+    EXPECT_THROW(second.listen(path, SOCK_STREAM), DeviceError);
     EXPECT_TRUE(std::filesystem::exists(path));
 }
 

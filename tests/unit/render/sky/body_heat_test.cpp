@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -49,6 +50,11 @@ TEST(BodyHeat, TheDiskIsTheSumOfItsElements) {
         for (int b = 2; b < kGrid.size(); ++b)
             EXPECT_NEAR(sum[b] / heat.disk_w_m2_um(g)[b], 1, 8e-3) << phase_deg;
     }
+}
+
+TEST(BodyHeat, ANightHotterThanNoonIsRefused) {
+    EXPECT_THROW(validate(BodyHeatConfig{200, 201, 1}), KeyError);
+    EXPECT_NO_THROW(validate(BodyHeatConfig{200, 200, 1}));
 }
 
 TEST(BodyHeat, WithoutThermalBinsThereIsNone) {
