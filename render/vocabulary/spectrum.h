@@ -98,7 +98,7 @@ void require_solar_cover(const Curve& curve, const SpectralGrid& grid, const std
 
 // Planck's law: spectral radiance of a black body [W m^-2 sr^-1 um^-1] (Planck 1901; CODATA 2018 constants).
 double planck_w_m2_sr_um(double wavelength_um, double temperature_k);
-// Returns its mean over each bin, to single precision, by the series of Chang & Rhee (Int. Comm. Heat Mass Transfer 11,
-// 1984). Zero at 0 K.
+// Returns its mean over each bin, to single precision, by the series of Chang & Rhee (Int. Comm. Heat Mass
+// Transfer 11, 1984). Zero at 0 K.
 Spectrum planck_w_m2_sr_um(const SpectralGrid& grid, double temperature_k);
 }  // namespace hilcam
