@@ -89,7 +89,7 @@ class CloneText {
     }
     // Writes a measured figure with its uncertainty; one that was not measured is left to the other camera.
     void figure(const std::string& key) {
-        const CloneFigure& f = figure_of(figures_, key);
+        const CloneFigure& f = figure_of(figures_, key.c_str());
         if (!f.measured) return;
         if (std::find(kReplaced.begin(), kReplaced.end(), key) == kReplaced.end()) replaced_.push_back(key);
         std::string line = key + ": " + number_text(f.measured->value);

@@ -65,7 +65,7 @@ std::vector<CloneFigure> clone_figures(const CloneMeasurement& m, const CameraMo
     };
 }
 
-const CloneFigure& figure_of(const std::vector<CloneFigure>& figures, const std::string& key) {
+const CloneFigure& figure_of(const std::vector<CloneFigure>& figures, const char* key) {
     const auto found =
         std::find_if(figures.begin(), figures.end(), [&](const CloneFigure& f) { return f.key == key; });
     HILCAM_CHECK(found != figures.end());

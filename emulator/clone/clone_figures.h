@@ -21,6 +21,6 @@ struct CloneFigure {
 // Returns the figures in the order of the tables.
 std::vector<CloneFigure> clone_figures(const CloneMeasurement& clone, const CameraModel& like);
 // Returns the figure with that key. HILCAM_CHECK: it exists.
-const CloneFigure& figure_of(const std::vector<CloneFigure>& figures, const std::string& key);
+const CloneFigure& figure_of(const std::vector<CloneFigure>& figures, const char* key);
 
 }  // namespace hilcam
