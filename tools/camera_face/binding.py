@@ -7,7 +7,8 @@ of the selectors above it.
 from . import fit as fits
 from .evaluator import Evaluator, NoValue
 from .formula import FormulaError
-from .roles import BY_NAME, COMPUTED, COUNTED, KNIVES, PREFERRED, ROLES, SELECTED, entry_of, to_hilcam
+from .roles import BY_NAME, COMPUTED, COUNTED, KNIVES, PREFERRED, ROLES, SELECTED, entry_of, \
+    number_of_entry, to_hilcam
 
 REFUSED = (NoValue, FormulaError, OverflowError, KeyError, ValueError)
 
@@ -23,6 +24,7 @@ class Binder:
         self.live = set()  # those that hilcam serves itself
         self.bound = {}  # vendor's feature: (role, its value at the start)
         self.initial = []  # (selector, entry's value) that the registers begin with
+        self.states = []  # (vendor's feature, selector, its entry; None, None without a selector) that rows were made for
         self.taken, self.fields = {}, []
 
     def bind(self):
@@ -33,12 +35,13 @@ class Binder:
                     self._bind_name(role, name)
             if role.kind != "command" and not any(name in self.bound for name in names):
                 self.notes.append(f"{role.feature}: the description has none in a register")
+        for name, selector, entry in self.states:
+            if name in self.bound and self.bound[name][0].limits:
+                if selector and self.ev.value(selector) != entry.number("Value"):
+                    self.ev.set(selector, entry.number("Value"))
+                self._bind_limits(self.bound[name][0], name)
         for selector, value in self.initial:
             self.ev.set(selector, value)
-        for role in ROLES:
-            for name in role.names:
-                if role.limits and name in self.bound:
-                    self._bind_limits(role, name)
         return self.rows
 
     # --- one feature under its selector
@@ -48,7 +51,8 @@ class Binder:
             name in self.ev.node(role.selector).texts("pSelected") else ""
         try:
             if not selector:
-                self._bind_state(role, name, None, {})
+                if self._bind_state(role, name, None, {}):
+                    self.states.append((name, None, None))
                 return
             entries = self._entries_to_bind(selector)
             places = self._places(selector, name)
@@ -69,6 +73,8 @@ class Binder:
             except REFUSED as error:
                 self.notes.append(f"{name}[{entry.name}]: {error}")
                 continue
+            if done:
+                self.states.append((name, selector, entry))
             first = first or (done and entry)
         if first and self.ev.terminal(selector):
             self._select(selector, first)
@@ -248,6 +254,7 @@ class Binder:
         self.ev.write_memory(self.ev.place(register), before)
         if formula is None:
             self.notes.append(f"{name}: its register does not move it")
+            self._settle(name, register, forward, back, self.camera.values[role.feature])
             return False
         if formula["kind"] == "points" and self.ev.terminal(name) is None:
             self._put_nearest(register, name, forward)  # it says which of a few sensors this is
@@ -293,14 +300,19 @@ class Binder:
         return None not in raws and (abs(raws[0]) >= 100 or values[0] == 0) and max(map(abs, raws)) < 1 << high - low + 1
 
     def _numbered_choice(self, role, name, register, row):
-        """Binning as a list of entries, by the number in their names."""
+        """Binning or shutter times as a list of entries, by the numbers in their names."""
         values = []
         for entry in self.ev.node(name).entries:
-            digits = "".join(c for c in entry.name if c.isdigit())
-            self.ev.set(name, entry.number("Value"))
-            values.append([self.ev.value(register), int(digits[0]) if digits else 1])
+            number = number_of_entry(role, entry.name, self.camera)
+            if number is not None:
+                self.ev.set(name, entry.number("Value"))
+                values.append([self.ev.value(register), number])
+        if not values:
+            self.notes.append(f"{name}: none of its entries is within hilcam's limits")
+            return False
         row["values"] = values
-        self.ev.set(register, values[0][0])
+        wanted = self.camera.values[role.feature]
+        self.ev.set(register, min(values, key=lambda pair: abs(pair[1] - wanted))[0])
         return True
 
     def _put_value(self, register, formula, value):
@@ -317,6 +329,20 @@ class Binder:
         wanted = self.camera.values[BY_NAME[name].feature]
         self.ev.set(register, min(rows, key=lambda row: abs(row[1] - wanted))[0])
         self._hold(register)
+
+    def _settle(self, name, register, forward, back, value):
+        """Keeps a feature on which hilcam can't act, such as binning within other bits, at hilcam's own value."""
+        if self._bits(register) & (self.live | self.held):
+            return
+        before = self.ev.raw(register)
+        try:
+            self.ev.set(name, back(value))
+            if forward(self.ev.value(name)) == value:
+                self._hold(register)
+                return
+        except REFUSED:
+            pass
+        self.ev.write_memory(self.ev.place(register), before)
 
     def _conversion(self, role, name):
         node = self.ev.node(name)
@@ -347,8 +373,9 @@ class Binder:
                 continue
             try:
                 terminal = self.ev.terminal(source)
-                static = terminal is None
-                if static:
+                computed = terminal is None
+                static = False
+                if computed:
                     terminal = self._mover((which, name))
                     static = len({use for use in self.ev.uses((which, name)) if use[1]}) > 1
                 if terminal is None or self._bits(terminal) & self.live or terminal in self.bound:
@@ -358,8 +385,8 @@ class Binder:
                 before = self.ev.raw(terminal)
                 formula = fits.fit(fits.curve(put, get, self._samples(terminal)), put, get)
                 self.ev.write_memory(self.ev.place(terminal), before)
-                if formula is None or (static and formula["kind"] == "points"):
-                    continue  # a register that says which of a few cameras this is
+                if formula is None or (computed and formula["kind"] == "points"):
+                    continue  # a register that says which of a few cameras this is, or the binning
                 self._put_value(terminal, formula, self.camera.limits[role.feature][number])
             except REFUSED as error:
                 self.notes.append(f"{name}, p{tag}: {error}")

@@ -76,7 +76,7 @@ def bound(description, camera, registers_file=None, more=()):
     binder.held |= standard
     binder.held |= {bit for word in recorded for bit in range(32 * word, 32 * word + 32)}
     binder.bind()
-    filler = Filler(binder.ev, binder.held, binder.bound, camera)
+    filler = Filler(binder.ev, binder.held, binder.bound, binder.states, camera)
     features = description.features()
     wrong = filler.fill(features)
     layout = chunks.layout(binder)

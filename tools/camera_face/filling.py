@@ -3,12 +3,14 @@
 A feature's demand (it is there; it is not locked; its value is within its limits, or one of its entries) depends on registers;
 the values that are tried are few, and one is taken if the demand then holds and no earlier demand breaks.
 """
+import contextlib
 import itertools
 import math
 import re
 
 from .evaluator import NoValue
 from .formula import FormulaError
+from .roles import entry_of
 
 WRONG = (NoValue, FormulaError, OverflowError, ValueError, KeyError, TypeError)
 NUMBERS = (1, 0, 2, 3, 4, 8, 16, 32, 100, 128, 255, 256, 1000, 1024, 4096, 65535, 65536, 1000000, 0x80000000, 0xFFFFFFFF)
@@ -18,8 +20,8 @@ MOST_TRIES = 1500
 
 
 class Filler:
-    def __init__(self, evaluator, held, bound, camera):
-        self.ev, self.held, self.bound, self.camera = evaluator, held, bound, camera
+    def __init__(self, evaluator, held, bound, states, camera):
+        self.ev, self.held, self.bound, self.states, self.camera = evaluator, held, bound, states, camera
         self.demands = {}  # word: numbers of demands that depend on it
         self.checks, self.whats = [], []
         self.mending = False
@@ -35,6 +37,9 @@ class Filler:
             self._demand_valid(name)
         if "PixelFormat" in self.bound:
             self._fill_formats()
+        for name, selector, entry in self.states:
+            with self._selected(selector, entry):
+                self._demand_usable(name, selector, entry)
         for name in features:
             if name not in self.bound and self._readable(name):
                 self._fill_other(name)
@@ -98,6 +103,46 @@ class Filler:
         for what in ("implemented", "available"):
             self._demand(lambda w=what: getattr(self.ev, w)(name), ((what, name),), NUMBERS)
         self._demand(lambda: not self.ev.locked(name), (("locked", name),), (0, 1, 2, 255))
+
+    def _demand_usable(self, name, selector, entry):
+        """What hilcam acts on under each entry of a selector is there, with those of its entries that hilcam has."""
+        if selector:
+            self._demand_entry(selector, entry, selector, entry)
+        for what in ("implemented", "available"):
+            self._demand(self._under(selector, entry, lambda w=what: getattr(self.ev, w)(name)), ((what, name),), NUMBERS)
+        self._demand(self._under(selector, entry, lambda: not self.ev.locked(name)), (("locked", name),), (0, 1, 2, 255))
+        self._demand(self._under(selector, entry, lambda: self._right(name)), self._whats(name), LARGE)
+        role = self.bound[name][0] if name in self.bound else None
+        if role is None or self.ev.nodes[name].tag != "Enumeration" or name == "PixelFormat":
+            return
+        for one in self.ev.nodes[name].entries:
+            if role.kind != "choice" or entry_of(role.feature, one.name, self.camera) is not None:
+                self._demand_entry(name, one, selector, entry)
+
+    def _demand_entry(self, name, one, selector, entry):
+        whats = tuple(("value", one.text(tag)) for tag in ("pIsImplemented", "pIsAvailable") if one.text(tag))
+        if whats:
+            self._demand(self._under(selector, entry, lambda: self.ev.entry_available(one)), whats, NUMBERS)
+
+    @contextlib.contextmanager
+    def _selected(self, selector, entry):
+        if selector is None:
+            yield
+            return
+        before = self.ev.value(selector)
+        try:
+            if before != entry.number("Value"):
+                self.ev.set(selector, entry.number("Value"))
+            yield
+        finally:
+            if self.ev.value(selector) != before:
+                self.ev.set(selector, before)
+
+    def _under(self, selector, entry, check):
+        def checked():
+            with self._selected(selector, entry):
+                return check()
+        return checked
 
     def _demand_valid(self, name):
         if not self._right(name):
@@ -180,7 +225,6 @@ class Filler:
 
     def _fill_formats(self):
         """Entries of PixelFormat are there if hilcam has the format, as far as the description lets one choose."""
-        from .roles import entry_of
         for entry in sorted(self.ev.nodes["PixelFormat"].entries,
                             key=lambda e: entry_of("PixelFormat", e.name, self.camera) is None):
             wanted = entry_of("PixelFormat", entry.name, self.camera) is not None

@@ -30,7 +30,7 @@ ROLES = (
     Role("AcquisitionAbort", ("AcquisitionAbort",), "command"),
     Role("AcquisitionFrameCount", ("AcquisitionFrameCount",), limits=True),
     Role("ExposureAuto", ("ExposureAuto",), "choice"),
-    Role("ExposureTime", ("ExposureTime", "ExposureTimeAbs", "ExposureTimeRaw"), unit="us", limits=True),
+    Role("ExposureTime", ("ExposureTime", "ExposureTimeAbs", "ExposureTimeRaw", "Shutter"), unit="us", limits=True),
     Role("AcquisitionFrameRate", ("AcquisitionFrameRate", "AcquisitionFrameRateAbs"), unit="Hz", limits=True),
     Role("AcquisitionResultingFrameRate", ("AcquisitionResultingFrameRate", "ResultingFrameRate", "ResultingFrameRateAbs",
                                            "BslResultingAcquisitionFrameRate"), unit="Hz"),
@@ -155,6 +155,18 @@ def entry_of(feature, name, camera):
     if feature == "TriggerSource" and name not in ("Software", "Line0", "Action1"):
         return None
     return name
+
+
+def number_of_entry(role, name, camera):
+    """Returns hilcam's number for an entry of a list (Binning2, Shutter1_100); None: it is out of hilcam's range."""
+    digits = re.findall(r"\d+", name)
+    if role.unit != "us":
+        return int(digits[0]) if digits else 1
+    if len(digits) != 2 or int(digits[1]) == 0:
+        return None
+    least, most = camera.limits[role.feature]
+    time_us = 1e6 * int(digits[0]) / int(digits[1])  # as shutter times are written, 1/100 s
+    return time_us if least <= time_us <= most else None
 
 
 def to_hilcam(role, node_name, unit, least, most, camera):

@@ -45,6 +45,7 @@ CameraFace::CameraFace(const CameraFaceFiles& files, GigeRegisterFile& own, cons
         for (std::uint32_t word = f.address / 4; word <= (f.address + (f.bytes - 1)) / 4; ++word)
             clearing_.emplace(word, i);
     }
+    settle_choices();
 }
 
 // Recorded registers are the real camera's; the table has what was missing.
@@ -52,6 +53,23 @@ void CameraFace::reset() {
     memory_ = {};
     for (const RegisterRun& run : files_.table.memory) memory_.write(run.address, run.bytes);
     for (const RegisterRun& run : files_.recorded) memory_.write(run.address, run.bytes);
+    settle_choices();
+}
+
+// A feature may hold what the description has no number for, such as a pixel format. It then gets what its
+// register says, so that no client reads one thing and receives another.
+void CameraFace::settle_choices() {
+    for (const Row& row : rows_) {
+        if (row.face->of != FaceRow::Of::kValue || row.values.empty() || !holds(row) ||
+            row.feature->access == Feature::Access::kRead)
+            continue;
+        select(row);
+        const double now = number_of_feature(*row.feature);
+        if (std::any_of(row.values.begin(), row.values.end(), [&](const auto& v) { return v.second == now; }))
+            continue;
+        // What can't be set, because of another feature, stays.
+        static_cast<void>(set_row(row, stored_bits(row.face->field), false));
+    }
 }
 
 const Feature* CameraFace::feature_of(const std::string& name, bool must_be) const {
@@ -196,12 +214,26 @@ std::uint64_t CameraFace::live_bits(const Row& row) {
     return first.value_or(stored);
 }
 
+// Returns the feature's number for its register's. A limit's number in the register is that limit, although the
+// register's steps and the formula's rounding give a little more or less.
+double CameraFace::number_in(const Row& row, std::uint64_t bits) const {
+    const FaceRow& face = *row.face;
+    for (const FaceRow::Of of : {FaceRow::Of::kLeast, FaceRow::Of::kMost})
+        if (const double limit = limit_of(*row.feature, of);
+            row.feature->kind == Feature::Kind::kFloat &&
+            bits_of(face.field, face.formula.raw(limit)) == bits)
+            return limit;
+    const double number = face.formula.value(number_of(face.field, bits));
+    // Aravis writes 0 to the offsets before it sets a window, also to cameras that count pixels from 1.
+    return face.feature == "OffsetX" || face.feature == "OffsetY" ? std::max(number, 0.0) : number;
+}
+
 Status CameraFace::set_row(const Row& row, std::uint64_t bits, bool locked) {
     const FaceRow& face = *row.face;
     if (face.of == FaceRow::Of::kCommand) return set_feature(row, kCommandValue, locked);
     if (face.of != FaceRow::Of::kValue || row.feature->access == Feature::Access::kRead)
         return Status::kWriteProtect;
-    if (face.values.empty()) return set_feature(row, face.formula.value(number_of(face.field, bits)), locked);
+    if (face.values.empty()) return set_feature(row, number_in(row, bits), locked);
     for (const auto& [raw, value] : row.values)
         if (raw == bits) return set_feature(row, value, locked);
     return Status::kInvalidParameter;
@@ -309,7 +341,10 @@ Status CameraFace::write_words(std::uint32_t address, std::span<const std::uint8
             const std::uint64_t wanted = part(f, data);
             if (is_command ? wanted != row.face->command : wanted == part(f, before)) continue;
             if (const Status status = set_row(row, wanted, locked); status != Status::kSuccess) return status;
-            if (is_command) put_back(f, stored_bits(f));
+            if (is_command) {
+                put_back(f, stored_bits(f));
+                settle_choices();  // the command may have loaded a user set
+            }
         }
     for (const std::size_t i : rows_in(clearing_, address, data.size())) {
         const FaceCommand& command = files_.table.self_clearing[i];

@@ -57,6 +57,7 @@ class CameraFace {
         std::multimap<std::uint32_t, std::size_t>;  // a word's number, and a row or a command that is in it
 
     void add_row(const FaceRow& row);
+    void settle_choices();
     const Feature* feature_of(const std::string& name, bool must_be) const;
     bool is_standard(std::uint32_t word_address) const;
     bool is_read_only(std::uint32_t address) const;
@@ -69,6 +70,7 @@ class CameraFace {
     double number_of_feature(const Feature& feature) const;
     double limit_of(const Feature& feature, FaceRow::Of of) const;
     Status set_feature(const Row& row, double number, bool locked);
+    double number_in(const Row& row, std::uint64_t bits) const;
     Status set_row(const Row& row, std::uint64_t bits, bool locked);
     Status write_own(std::uint32_t address, std::uint64_t number, std::uint32_t bytes, bool locked);
     void select(const Row& row);

@@ -248,7 +248,7 @@ def prepare(client):
 def exposure(client, result, black):
     name = client.has("ExposureTime", "ExposureTimeAbs", "ExposureTimeRaw")
     if not name:
-        return "none"
+        return shutter(client, result, black)
     node = client.genicam.get_node(name)
     short = max(node.get_min(), 150.0)
     means = []
@@ -258,6 +258,23 @@ def exposure(client, result, black):
         took = client.get(name)
     result["exposure_ratio"] = round(means[1] / max(means[0], 1e-9) / (took / short), 3)
     client.set(name, short)
+    return "yes" if abs(result["exposure_ratio"] - 1) < 0.06 else "no"
+
+
+def shutter(client, result, black):
+    """An exposure by a list of times, as Shutter1_100 is 1/100 s."""
+    name = client.has("Shutter")
+    if not name:
+        return "none"
+    times = {entry: int(part[0]) / int(part[1]) for entry in client.entries(name)
+             if len(part := re.findall(r"\d+", entry)) == 2}
+    short, longer = sorted((t for t in times if times[t] > 0.00025), key=times.get)[:2]  # enough light for 8 bits
+    means = []
+    for entry in (short, longer):
+        client.set(name, entry)
+        means.append(client.mean() - black)
+    client.set(name, short)
+    result["exposure_ratio"] = round(means[1] / max(means[0], 1e-9) / (times[longer] / times[short]), 3)
     return "yes" if abs(result["exposure_ratio"] - 1) < 0.06 else "no"
 
 

@@ -16,7 +16,8 @@ using Of = FaceRow::Of;
 
 constexpr std::uint32_t kWindow = 0x20000, kExposure = 0x20010, kLongest = 0x20014, kFormat = 0x20018,
                         kRun = 0x2001C, kSelector = 0x20020, kTrigger = 0x20024, kReset = 0x20028,
-                        kSerial = 0x2002C, kLocked = 0x20030, kChunks = 0x0D24;
+                        kSerial = 0x2002C, kLocked = 0x20030, kGain = 0x20034, kOffset = 0x20038,
+                        kChunks = 0x0D24;
 
 FaceRow number(const char* feature, RegisterField field, double scale = 1, Of of = Of::kValue) {
     FaceRow row;
@@ -101,6 +102,45 @@ TEST(CameraFace, AChoiceKeepsTheNumberThatWasWritten) {
     EXPECT_EQ(b.write(kFormat, 4), gvcp::kInvalidParameter);  // hilcam has no such format
     EXPECT_EQ(b.write(kFormat, 77), gvcp::kInvalidParameter);
     EXPECT_EQ(b.read(kFormat), 3u);
+}
+
+TEST(CameraFace, AChoiceThatTheDescriptionLacksBecomesTheRegisters) {
+    const auto f = files();
+    f->table.rows[4].values = {{1, "Mono8"}};  // the camera begins with Mono12
+    f->table.memory.push_back({kFormat, {0, 0, 0, 1}});
+    FaceClient b(f);
+    EXPECT_EQ(b.read(kFormat), 1u);
+    EXPECT_EQ(b.device.stream_state().format, WireFormat::kMono8);
+}
+
+TEST(CameraFace, ALimitIsReachedAlthoughItsFormulaIsRounded) {
+    const auto f = files();
+    FaceRow gain = number("Gain", {.address = kGain, .low = 0, .high = 15});
+    gain.formula = {
+        .kind = RegisterFormula::Kind::kLogarithm, .scale = 8.68588963807, .offset = -72.2471989595};
+    f->table.rows.push_back(gain);
+    FaceClient b(f);
+    EXPECT_EQ(b.read(kGain), 4096u);
+    ASSERT_LT(gain.formula.value(4096), 0);  // dB, below hilcam's least
+    EXPECT_EQ(b.write(kGain, 8192), gvcp::kSuccess);
+    EXPECT_NEAR(b.camera.s.gain_db, 6.02, 0.01);
+    EXPECT_EQ(b.write(kGain, 4096), gvcp::kSuccess);
+    EXPECT_EQ(b.camera.s.gain_db, 0);
+    EXPECT_EQ(b.write(kGain, 4095), gvcp::kInvalidParameter);
+}
+
+TEST(CameraFace, OffsetsThatCountFrom1TakeAravissZero) {
+    const auto f = files();
+    FaceRow offset = number("OffsetX", {.address = kOffset});
+    offset.formula.offset = -1;
+    f->table.rows.push_back(offset);
+    FaceClient b(f);
+    EXPECT_EQ(b.read(kOffset), 1u);
+    EXPECT_EQ(b.write(kWindow, 320u << 16 | 100), gvcp::kSuccess);
+    EXPECT_EQ(b.write(kOffset, 17), gvcp::kSuccess);
+    EXPECT_EQ(b.read(kOffset), 17u);
+    EXPECT_EQ(b.write(kOffset, 0), gvcp::kSuccess);
+    EXPECT_EQ(b.read(kOffset), 1u);
 }
 
 TEST(CameraFace, CommandsRunAndDoNotStay) {
