@@ -112,7 +112,9 @@ class LinesTest(CameraTest):
             self.stream.push_buffer(Aravis.Buffer.new_allocate(self.camera.get_payload()))
         self.chunks = self.camera.create_chunk_parser()
         self.camera.start_acquisition()
-        time.sleep(0.2)  # an exposure of the free run before is over
+        # A trigger is not heard while an exposure of the free run before goes on.
+        while (buffer := self.stream.timeout_pop_buffer(200_000)) is not None:
+            self.stream.push_buffer(buffer)
         self.wires.drain()
 
     def set(self, name, value):
