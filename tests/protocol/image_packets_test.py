@@ -2,7 +2,9 @@
 """Frames as space packets, read by a reader written from the standards (tools/client/hilcam_read_packets.py), by the XTCE file and by the
 COSMOS target: bit for bit what outputs.files writes, over each transport, in each compression, with packets lost.
 
-    image_packets_test.py HILCAM SOURCE_DIR
+    image_packets_test.py HILCAM SOURCE_DIR [--frames 1000]
+
+So many frames over each transport; 200 without.
 """
 import ctypes.util
 import json
@@ -24,7 +26,7 @@ from packet_readers import Cosmos, Xtce  # noqa: E402
 
 SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
 GROUND = SOURCE / "tools/ground_systems"
-FRAMES = 1000
+FRAMES = int(sys.argv[sys.argv.index("--frames") + 1]) if "--frames" in sys.argv else 200
 SIDE = 64
 APID = 272
 SMALL = (f"camera.width_px={SIDE}", f"camera.height_px={SIDE}", "camera.focal_length_mm=0.7", "objects.0.generate.triangles=5000",
@@ -521,4 +523,5 @@ class Tool(Case):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    names = [a for a in sys.argv[3:] if a != "--frames" and not a.isdigit()]
+    unittest.main(argv=[sys.argv[0], *names], verbosity=2)
