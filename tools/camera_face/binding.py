@@ -37,8 +37,11 @@ class Binder:
                 self.notes.append(f"{role.feature}: the description has none in a register")
         for name, selector, entry in self.states:
             if name in self.bound and self.bound[name][0].limits:
-                if selector and self.ev.value(selector) != entry.number("Value"):
-                    self.ev.set(selector, entry.number("Value"))
+                try:
+                    if selector and self.ev.value(selector) != entry.number("Value"):
+                        self.ev.set(selector, entry.number("Value"))
+                except REFUSED:
+                    continue  # a computed selector has moved with other registers
                 self._bind_limits(self.bound[name][0], name)
         for selector, value in self.initial:
             self.ev.set(selector, value)

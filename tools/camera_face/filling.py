@@ -38,8 +38,11 @@ class Filler:
         if "PixelFormat" in self.bound:
             self._fill_formats()
         for name, selector, entry in self.states:
-            with self._selected(selector, entry):
-                self._demand_usable(name, selector, entry)
+            try:
+                with self._selected(selector, entry):
+                    self._demand_usable(name, selector, entry)
+            except WRONG:
+                continue  # a computed selector has moved with other registers
         for name in features:
             if name not in self.bound and self._readable(name):
                 self._fill_other(name)
