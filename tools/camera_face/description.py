@@ -3,6 +3,7 @@
 A file is text, a zip with one XML, or what `arv-tool genicam > file` leaves, with its first line before the XML.
 """
 import io
+import math
 import pathlib
 import re
 import xml.etree.ElementTree as ElementTree
@@ -43,6 +44,10 @@ class Node:
         found = self.texts(tag)
         return found[0] if found else default
 
+    def whole(self, tag, default=None):
+        text = self.text(tag)
+        return default if text is None else whole_of(text, f"{self.name}, {tag}")
+
     def number(self, tag, default=None):
         text = self.text(tag)
         return default if text is None else number_of(text, f"{self.name}, {tag}")
@@ -61,6 +66,13 @@ def number_of(text, where):
         return int(text) if re.fullmatch(r"[+-]?\d+", text) else float(text)
     except ValueError:
         raise DescriptionError(f"{where}: found '{text[:40]}'; accepted: a number") from None
+
+
+def whole_of(text, where):
+    number = number_of(text, where)
+    if not math.isfinite(number) or number != int(number):
+        raise DescriptionError(f"{where}: found '{text[:40]}'; accepted: a whole number")
+    return int(number)
 
 
 def xml_bytes(path):
@@ -128,13 +140,23 @@ class Description:
 
     def _add(self, node):
         self.nodes[node.name] = node
+        for entry in node.entries:
+            if entry.whole("Value") is None:
+                raise DescriptionError(f"{node.name}: the entry {entry.name} has no Value")
         if node.tag == "Port":
             self.ports[node.name] = None
             for kind in ("ChunkID", "EventID"):
                 if node.text(kind):
-                    self.ports[node.name] = (kind, int(node.text(kind), 16))
+                    self.ports[node.name] = (kind, self._id(node, kind))
                 elif node.text("p" + kind):
                     self.ports[node.name] = (kind, 0)
+
+    @staticmethod
+    def _id(node, kind):
+        try:
+            return int(node.text(kind), 16)
+        except ValueError:
+            raise DescriptionError(f"{node.name}, {kind}: found '{node.text(kind)[:40]}'; accepted: hexadecimal digits") from None
 
     def on_device(self, node):
         """True for a register of the device; false for one in a chunk, or in an event's data."""

@@ -31,10 +31,9 @@ class Filler:
     def fill(self, features):
         """Returns the features that read wrong in the end."""
         ours = [name for name in self.bound if name in features] + [name for name in self.bound if name not in features]
-        for name in ours:
-            self._demand_there(name)
-        for name in ours:
-            self._demand_valid(name)
+        for demand in (self._demand_there, self._demand_valid):
+            for name in ours:
+                self._tried(demand, name)
         if "PixelFormat" in self.bound:
             self._fill_formats()
         for name, selector, entry in self.states:
@@ -45,8 +44,16 @@ class Filler:
                 continue  # a computed selector has moved with other registers
         for name in features:
             if name not in self.bound and self._readable(name):
-                self._fill_other(name)
+                self._tried(self._fill_other, name)
         return [name for name in features if self._readable(name) and not self._right(name)]
+
+    @staticmethod
+    def _tried(fill, name):
+        """A feature with a register that cannot be is left as it is, and is named as one that reads wrong."""
+        try:
+            fill(name)
+        except WRONG:
+            pass
 
     # --- one feature
 

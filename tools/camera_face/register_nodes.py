@@ -1,7 +1,8 @@
 """The register nodes of a description over a memory: where they are, and their numbers (GenICam Standard 2.1.1, 2.8.8 to 2.8.11)."""
+import math
 import struct
 
-from .description import number_of
+from .description import whole_of
 
 
 class NoValue(Exception):
@@ -14,21 +15,21 @@ class RegisterNodes:
     def address(self, name):
         node, total = self.node(name), 0
         for text in node.texts("Address"):
-            total += number_of(text, f"{name}, Address")
+            total += whole_of(text, f"{name}, Address")
         for text in node.texts("pAddress"):
             total += int(self.value(text))
         for child in node.children.get("IntSwissKnife", ()):
             total += int(self._inline(node, child))
         for child in node.children.get("pIndex", ()):
             step = child.get("Offset")
-            offset = number_of(step, name) if step else \
+            offset = whole_of(step, name) if step else \
                 int(self.value(child.get("pOffset"))) if child.get("pOffset") else self.length(name)
             total += int(self.value(child.text.strip())) * offset
         return total & 0xFFFFFFFF
 
     def length(self, name):
         node = self.node(name)
-        length = node.number("Length")
+        length = node.whole("Length")
         if length is None:
             length = int(self.value(node.text("pLength"))) if node.text("pLength") else 0
         if not 0 < length <= 1 << 20:
@@ -43,13 +44,15 @@ class RegisterNodes:
         node, count = self.node(name), 8 * self.length(name)
         if node.tag not in ("MaskedIntReg", "StructEntry"):
             return 0, count - 1
-        low, high = node.number("LSB"), node.number("MSB")
+        low, high = node.whole("LSB"), node.whole("MSB")
         if node.text("Bit") is not None:
-            low = high = node.number("Bit")
+            low = high = node.whole("Bit")
         if low is None or high is None:
             low, high = 0, count - 1
         elif self.endian(name) == "big":  # there bit 0 is the most significant
             low, high = count - 1 - low, count - 1 - high
+        if not (0 <= min(low, high) and max(low, high) < count):
+            raise NoValue(f"{name}: bits {low} to {high} of {count}")
         return min(low, high), max(low, high)
 
     def bits_in_memory(self, name):
@@ -103,6 +106,8 @@ class RegisterNodes:
 
     def _write_register(self, node, value):
         name, address, length = node.name, self.place(node.name), self.length(node.name)
+        if node.tag != "StringReg" and not (isinstance(value, (int, float)) and math.isfinite(value)):
+            raise NoValue(f"{name}: {value} is no number")
         if node.tag == "StringReg":
             data = str(value).encode()[:length - 1].ljust(length, b"\0")
         elif node.tag == "FloatReg":

@@ -9,6 +9,8 @@ Without --all: two small descriptions of the tests' own, and bad input. --all: a
 import json
 import os
 import pathlib
+import random
+import re
 import shutil
 import subprocess
 import sys
@@ -20,7 +22,10 @@ import zipfile
 from bench import SOURCE, Emulator, tool
 
 sys.path.insert(0, str(SOURCE / "tools"))
+from camera_face.commands import bound, camera_values  # noqa: E402
+from camera_face.description import Description, DescriptionError  # noqa: E402
 from camera_face.formula import Formula, FormulaError  # noqa: E402
+from camera_face.roles import Camera  # noqa: E402
 
 OWN = pathlib.Path(__file__).parent / "face"
 REAL = SOURCE.parent / "shared/data/genicam"
@@ -191,6 +196,43 @@ class RealDescriptions(FaceCase):
             if missed != MISSES.get(xml.stem, set()):
                 failed[xml.stem] = missed
         self.assertEqual(failed, {})
+
+
+class Damage(unittest.TestCase):
+    """Descriptions with lost nodes, other references, absurd numbers and formulas are bound, or refused with one line."""
+    NUMBERS = ("0", "-1", "0xFFFFFFFF", "18446744073709551615", "1e400", "x", "", "4294967292", "3")
+    FORMULAS = ("1/0", "FROM", "((", "A ? B", "2**9999", "TO*TO", "(1=1)?0:", "LN(0)")
+
+    def damaged(self, text, draw):
+        names = re.findall(r'Name="(\w+)"', text)
+        for _ in range(draw.randrange(1, 6)):
+            kind = draw.randrange(5)
+            if kind == 4:
+                at = draw.randrange(len(text))
+                text = text[:at] + text[at + draw.randrange(200):]
+                continue
+            pattern, others = ((r"(<(\w+)>[^<]*</\2>)", ("",)), (r">(\w+)<", names), (r">(0x[0-9A-Fa-f]+|\d+)<", self.NUMBERS),
+                               (r"<Formula\w*>([^<]*)<", self.FORMULAS))[kind]
+            found = list(re.finditer(pattern, text))
+            if found:
+                place = draw.choice(found)
+                text = text[:place.start(1)] + draw.choice(others) + text[place.end(1):]
+        return text
+
+    def test_no_damage_is_more_than_one_line(self):
+        camera, draw, ends = Camera(camera_values(SCENARIO, [])), random.Random(5), []
+        whole = [(OWN / name).read_text() for name in ("example_1_0.xml", "example_1_1.xml")]
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "damaged.xml"
+            for _ in range(60):
+                file.write_text(self.damaged(draw.choice(whole), draw))
+                try:
+                    bound(Description(file), camera)
+                    ends.append("bound")
+                except DescriptionError as error:
+                    self.assertNotIn("\n", str(error))
+                    ends.append("refused")
+        self.assertEqual(set(ends), {"bound", "refused"})
 
 
 class BadInput(unittest.TestCase):
