@@ -62,6 +62,16 @@ double BodyRadiance::met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) cons
     return distance_m < 0 ? distance_m : distance_m / per_length;
 }
 
+namespace {
+
+BodyHeat::Place place_of(Vec3d level, Vec3d sun_dir, double mu0) {
+    const double hour_rad =
+        std::atan2(sun_dir.x * level.y - sun_dir.y * level.x, sun_dir.x * level.x + sun_dir.y * level.y);
+    return {static_cast<float>(mu0), static_cast<float>(level.z), static_cast<float>(hour_rad)};
+}
+
+}  // namespace
+
 Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir,
                                const Eclipses& eclipses) const {
     const SceneBody& scene = scene_[body.id];
@@ -84,7 +94,8 @@ Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_v
         light = light * scene_.air->sun_transmittance(p, s);
         light += static_cast<float>(1 / kPi) * (scene.look.albedo() * scene_.air->sky_irradiance(p, s));
     } else if (mu0 <= 0 && body.shine_count == 0) {
-        return scene.look.heat().none() ? Spectrum{} : scene.look.heat().radiance(0);
+        return scene.look.heat().none() ? Spectrum{}
+                                        : scene.look.heat().radiance(place_of(level, body.sun_dir, 0));
     }
     if (mu0 > 0 && scene_.has_rings(body.id))
         light = static_cast<float>(SaturnRings::transmittance(point_m, body.sun_dir)) * light;
@@ -113,7 +124,7 @@ Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_v
     if (body.may_be_eclipsed)
         light = light * eclipses.sun_seen_from(body.id, transposed(body.fixed_from_world) * point_m);
     Spectrum out = body.irradiance_w_m2_um * light;
-    if (!scene.look.heat().none()) out += scene.look.heat().radiance(static_cast<float>(mu0));
+    if (!scene.look.heat().none()) out += scene.look.heat().radiance(place_of(level, body.sun_dir, mu0));
     for (std::size_t k = 0; k < body.shine_count; ++k) {
         const PlacedBody::Shine& shine = body.shine[k];
         out += shine.irradiance_w_m2_um * texel *

@@ -1,11 +1,14 @@
 #pragma once
-// The heat of a body, in the thermal bins (spectrum.h): it emits as a grey surface in equilibrium with the
-// sunlight that falls on it now, and no colder than its night,
+// The heat of a body, in the thermal bins (spectrum.h), by one of two models.
+//
+// Grey: a surface in equilibrium with the sunlight that falls on it now, and no colder than its night,
 //
 //     T^4 = T_night^4 + (T_noon^4 - T_night^4) mu_0.
 //
-// So the ground cools at once behind the terminator. Clouds, latitudes and the heat of the ground are not
-// modelled.
+// So the ground cools at once behind the terminator; latitudes and the heat of the ground are not modelled.
+//
+// Regolith (regolith.h): by latitude and local time, with the heat that the ground keeps; for the Moon.
+// Slopes of a relief do not change it.
 
 #include <array>
 #include <cstddef>
@@ -18,8 +21,11 @@
 namespace hilcam {
 
 struct BodyHeatConfig {
-    double noon_k = 250, night_k = 250;
+    enum class Model { kGrey, kRegolith };
+    double noon_k = 250, night_k = 250;  // grey
     double emissivity = 0.95;
+    Model model = Model::kGrey;
+    double albedo = 0.12;  // regolith, of sunlight from the zenith
 };
 // The Moon: Hayne et al., J. Geophys. Res. Planets 122, 2371 (2017). Mercury: Vasavada et al., Icarus 141,
 // 179 (1999), equator at 0.39 au. Mars: range of the equator (Kieffer et al., 1977). Others are even, at
@@ -35,12 +41,18 @@ class BodyHeat {
     BodyHeat() = default;  // emits nothing
     BodyHeat(const BodyHeatConfig& config, const SpectralGrid& grid);
 
-    bool none() const { return by_root_.empty(); }
-    // Returns the emitted radiance [W m^-2 sr^-1 um^-1] by the cosine of the Sun's zenith angle. Loop, any
-    // thread.
-    Spectrum radiance(float mu0) const;
-    const Spectrum& most() const { return by_root_.back(); }
-    // Returns the irradiance by the whole disk at distance d, over (R/d)^2 [W m^-2 um^-1].
+    // A place on the body: cosine of the Sun's zenith angle, sine of the latitude, and local time as the angle
+    // since noon, positive in the afternoon.
+    struct Place {
+        float mu0 = 0, sine_latitude = 0, hour_rad = 0;
+    };
+
+    bool none() const { return disk_by_degree_.empty(); }
+    // Returns the emitted radiance [W m^-2 sr^-1 um^-1]. Loop, any thread.
+    Spectrum radiance(const Place& place) const;
+    const Spectrum& most() const { return most_; }
+    // Returns the irradiance by the whole disk at distance d, over (R/d)^2 [W m^-2 um^-1]; of regolith the mean of
+    // a waxing and a waning one.
     Spectrum disk_w_m2_um(double phase_rad) const;
     // Returns what is reflected of light from all directions; 0 in bins that are not thermal.
     const Spectrum& reflected() const { return reflected_; }
@@ -48,7 +60,15 @@ class BodyHeat {
 
   private:
     static constexpr std::size_t kSteps = 128;
-    std::vector<Spectrum> by_root_;  // by the root of mu_0: T and Planck's law change most in the last light
+    static constexpr std::size_t kLatitudes = 19, kHours = 192;  // each 5 degrees; each an eighth of an hour
+
+    void make_grey(const BodyHeatConfig& config, const SpectralGrid& grid);
+    void make_regolith(const BodyHeatConfig& config, const SpectralGrid& grid);
+    Spectrum regolith(const Place& place) const;
+
+    std::vector<Spectrum> by_root_;   // by the root of mu_0: T and Planck's law change most in the last light
+    std::vector<Spectrum> by_place_;  // by latitude, then by local time from noon on
+    Spectrum most_;
     std::vector<Spectrum> disk_by_degree_;
     Spectrum reflected_;
     int solar_bins_ = 0;

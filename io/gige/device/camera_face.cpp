@@ -56,19 +56,25 @@ void CameraFace::reset() {
     settle_choices();
 }
 
-// A feature may hold what the description has no number for, such as a pixel format. It then gets what its
-// register says, so that no client reads one thing and receives another.
+// True if the register shows what its feature is: always, but for a choice without an entry for it.
+bool CameraFace::shows(const Row& row) const {
+    if (row.values.empty()) return true;
+    const double now = number_of_feature(*row.feature);
+    return std::any_of(row.values.begin(), row.values.end(), [&](const auto& v) { return v.second == now; });
+}
+
+// A feature may hold what no register of the description has a number for, such as a pixel format. It then
+// gets what its register says, so that no client reads one thing and receives another.
 void CameraFace::settle_choices() {
+    const auto is_value = [&](const Row& row) { return row.face->of == FaceRow::Of::kValue && holds(row); };
     for (const Row& row : rows_) {
-        if (row.face->of != FaceRow::Of::kValue || row.values.empty() || !holds(row) ||
-            row.feature->access == Feature::Access::kRead)
-            continue;
+        if (!is_value(row) || row.feature->access == Feature::Access::kRead) continue;
         select(row);
-        const double now = number_of_feature(*row.feature);
-        if (std::any_of(row.values.begin(), row.values.end(), [&](const auto& v) { return v.second == now; }))
-            continue;
+        const bool shown = std::any_of(rows_.begin(), rows_.end(), [&](const Row& other) {
+            return other.feature == row.feature && is_value(other) && shows(other);
+        });
         // What can't be set, because of another feature, stays.
-        static_cast<void>(set_row(row, stored_bits(row.face->field), false));
+        if (!shown) static_cast<void>(set_row(row, stored_bits(row.face->field), false));
     }
 }
 

@@ -57,6 +57,7 @@ class CameraFace {
         std::multimap<std::uint32_t, std::size_t>;  // a word's number, and a row or a command that is in it
 
     void add_row(const FaceRow& row);
+    bool shows(const Row& row) const;
     void settle_choices();
     const Feature* feature_of(const std::string& name, bool must_be) const;
     bool is_standard(std::uint32_t word_address) const;

@@ -124,6 +124,8 @@ class Client:
         self.device = self.camera.get_device()
         self.open_s = time.monotonic() - begin
         self.genicam = self.device.get_genicam()
+        # Aravis's ring of raw packets loses some of the loopback's on a busy machine.
+        self.camera.gv_set_stream_options(Aravis.GvStreamOption.PACKET_SOCKET_DISABLED)
 
     def has(self, *names):
         """Returns the first name that the description has and makes available."""

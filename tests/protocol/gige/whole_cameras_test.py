@@ -36,6 +36,7 @@ for feature in features:
     node.set_string_value(value) if isinstance(node, Aravis.GcEnumeration) else node.set_value(
         float(value) if isinstance(node, Aravis.GcFloat) else int(value))
 if int(count):
+    camera.gv_set_stream_options(Aravis.GvStreamOption.PACKET_SOCKET_DISABLED)
     stream = camera.create_stream(None, None)
     for _ in range(int(count) + 2):
         stream.push_buffer(Aravis.Buffer.new_allocate(camera.get_payload()))

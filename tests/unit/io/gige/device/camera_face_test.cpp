@@ -113,6 +113,21 @@ TEST(CameraFace, AChoiceThatTheDescriptionLacksBecomesTheRegisters) {
     EXPECT_EQ(b.device.stream_state().format, WireFormat::kMono8);
 }
 
+// A list of shutter times beside an exposure in steps: commands do not set the exposure to one of the list.
+TEST(CameraFace, AChoiceBesideANumberLeavesTheNumber) {
+    const auto f = files();
+    f->table.rows.push_back(choice("ExposureTime", {.address = kGain}, {{3, "", 4000}}));
+    FaceClient b(f);
+    b.open_stream();
+    EXPECT_DOUBLE_EQ(b.camera.s.exposure_s, 0.001);
+    EXPECT_EQ(b.write(kRun, 1), gvcp::kSuccess);
+    EXPECT_DOUBLE_EQ(b.camera.s.exposure_s, 0.001);
+    EXPECT_EQ(b.write(kRun, 2), gvcp::kSuccess);
+    EXPECT_EQ(b.write(kGain, 3), gvcp::kSuccess);
+    EXPECT_DOUBLE_EQ(b.camera.s.exposure_s, 0.004);
+    EXPECT_EQ(b.read(kExposure), 0x90010000u);  // 400 steps of 10 us, little-endian
+}
+
 TEST(CameraFace, ALimitIsReachedAlthoughItsFormulaIsRounded) {
     const auto f = files();
     FaceRow gain = number("Gain", {.address = kGain, .low = 0, .high = 15});
