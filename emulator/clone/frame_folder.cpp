@@ -99,8 +99,12 @@ std::vector<NamedSeries> series_by_names(const fs::path& folder) {
                              "chessboard, as chessboard_9x6");
         // Each edge, and each board, is a folder of its own.
         const std::string place = measures_pixels ? "" : file.parent_path().string();
-        const Key key{static_cast<int>(s->kind), s->exposure_s,
-                      s->has_temperature_c ? s->temperature_c : -1e3, s->gain_db, s->light, place};
+        const Key key{static_cast<int>(s->kind),
+                      s->exposure_s,
+                      s->has_temperature_c ? s->temperature_c : -1e3,
+                      s->gain_db,
+                      s->light,
+                      place};
         NamedSeries& series = found[key];
         if (series.files.empty()) {
             series.settings = *s;
@@ -193,11 +197,21 @@ FrameSeries series_of(const NamedSeries& named, const std::shared_ptr<FrameFiles
     FrameSeries out;
     out.name = named.name;
     switch (named.settings.kind) {
-        case SeriesConfig::Kind::kDark: out.kind = SeriesKind::kDark; break;
-        case SeriesConfig::Kind::kFlat: out.kind = SeriesKind::kFlat; break;
-        case SeriesConfig::Kind::kEdge: out.kind = SeriesKind::kEdge; break;
-        case SeriesConfig::Kind::kChessboard: out.kind = SeriesKind::kChessboard; break;
-        case SeriesConfig::Kind::kLag: out.kind = SeriesKind::kLag; break;
+        case SeriesConfig::Kind::kDark:
+            out.kind = SeriesKind::kDark;
+            break;
+        case SeriesConfig::Kind::kFlat:
+            out.kind = SeriesKind::kFlat;
+            break;
+        case SeriesConfig::Kind::kEdge:
+            out.kind = SeriesKind::kEdge;
+            break;
+        case SeriesConfig::Kind::kChessboard:
+            out.kind = SeriesKind::kChessboard;
+            break;
+        case SeriesConfig::Kind::kLag:
+            out.kind = SeriesKind::kLag;
+            break;
     }
     if (named.settings.corners.size() == 2) {
         out.corner_columns = static_cast<int>(named.settings.corners[0]);

@@ -37,9 +37,12 @@ std::optional<double> exposure_in(std::string_view word) {
 
 std::optional<SeriesConfig::Kind> kind_in(std::string_view word) {
     using Kind = SeriesConfig::Kind;
-    for (const auto& [name, kind] :
-         {std::pair{"dark", Kind::kDark}, {"bias", Kind::kDark}, {"flat", Kind::kFlat}, {"edge", Kind::kEdge},
-          {"chessboard", Kind::kChessboard}, {"lag", Kind::kLag}})
+    for (const auto& [name, kind] : {std::pair{"dark", Kind::kDark},
+                                     {"bias", Kind::kDark},
+                                     {"flat", Kind::kFlat},
+                                     {"edge", Kind::kEdge},
+                                     {"chessboard", Kind::kChessboard},
+                                     {"lag", Kind::kLag}})
         if (word == name) return kind;
     return std::nullopt;
 }

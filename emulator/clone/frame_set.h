@@ -20,7 +20,7 @@ struct FrameSeries {
     double exposure_s = 0;
     std::optional<double> temperature_c;
     double gain_db = 0;
-    double light = 1;  // light of a flat, in any unit that is the same for all flats
+    double light = 1;                         // light of a flat, in any unit that is the same for all flats
     int corner_columns = 0, corner_rows = 0;  // inner corners of a chessboard
     std::size_t frames = 0;
     std::vector<std::string> files;  // names of the frames' files, for messages

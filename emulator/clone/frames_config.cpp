@@ -29,7 +29,8 @@ void validate(const SeriesConfig& s) {
     if (s.kind == SeriesConfig::Kind::kChessboard && s.corners.empty())
         throw refused_key("corners", "none", "inner corners of the chessboard, as [9, 6]");
     for (const double corner : s.corners)
-        if (corner != std::floor(corner)) throw refused_key("corners", "a fraction", "whole numbers, as [9, 6]");
+        if (corner != std::floor(corner))
+            throw refused_key("corners", "a fraction", "whole numbers, as [9, 6]");
 }
 
 Fields fields(FramesConfig& f) {
