@@ -15,6 +15,7 @@ constexpr std::size_t kDarks = 12, kShown = 5;
 // A dark frame with more than this part of the bright ones was still lit when its exposure began.
 constexpr double kPartlyLit = 0.1;
 constexpr std::size_t kMostPartlyLit = 2;
+constexpr double kWorstScatter = 0.02;  // of the dark frames, as a part of the bright ones
 
 struct Decay {
     std::vector<double> left;
@@ -31,6 +32,7 @@ Decay decay(double bright, std::span<const double> darks, const std::string& nam
     for (const double value : base) sum += square(value - mean);
     Decay out;
     out.scatter = std::sqrt(sum / (n - 1) * (1 + 1 / n)) / (bright - mean);
+    if (!(out.scatter < kWorstScatter)) return out;
     const auto part = [&](std::size_t i) { return (darks[i] - mean) / (bright - mean); };
     while (out.passed_over < darks.size() && part(out.passed_over) > kPartlyLit) ++out.passed_over;
     if (out.passed_over > kMostPartlyLit)
@@ -55,7 +57,10 @@ ImageLag image_lag(std::span<const double> means, const std::string& name) {
             std::size_t end = i;
             while (end < means.size() && means[end] <= half) ++end;
             const double bright = i >= 2 && means[i - 2] > means[i - 1] ? means[i - 2] : means[i - 1];
-            if (end - i >= kDarks) decays.push_back(decay(bright, means.subspan(i, end - i), name));
+            if (end - i < kDarks) continue;
+            const Decay one = decay(bright, means.subspan(i, end - i), name);
+            // Noise of dark frames has such steps, too.
+            if (!one.left.empty()) decays.push_back(one);
         }
     }
     if (decays.empty())

@@ -3,8 +3,7 @@
 // flexible new technique for camera calibration, IEEE PAMI 22, 2000). The library is in a program of its own,
 // hilcam-calibrate-lens (calibrate_lens.cpp), because it would bring hilcam three more libraries.
 //
-// Coefficients that the boards do not show, below three of their standard deviations, are 0: first k3, then
-// k2, then the tangential ones.
+// k3 is 0 when the boards do not show it, below three of its standard deviations.
 
 #include <functional>
 #include <optional>
