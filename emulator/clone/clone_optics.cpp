@@ -158,7 +158,7 @@ class OpticsLaboratory {
     const FrameSet& frames_;
     const CameraModel& like_;
     const CloneMeasurement& clone_;
-    CameraModel camera_;  // with the measured response
+    CameraModel camera_;  // the sheet, with the measured response
     std::vector<PixelSelection> planes_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What series of edges, chessboards and lag show: the lens's MTF over the field, focal length and distortion,
-// and the persistence of an image in the frames after it.
+// Measures what series of edges, chessboards and lag show: the lens's MTF over the field, focal length and
+// distortion, and the persistence of an image in the frames after it.
 
 #include <optional>
 

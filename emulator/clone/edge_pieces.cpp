@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kBlocks = 16;
 constexpr int kLeastRows = 48, kMostPieces = 7;
-constexpr int kStep_px = 8;  // width of the two means whose difference shows the edge
-constexpr double kLeastReach_px = 12, kReach_px = 32;  // of a piece, to both sides of the edge
+constexpr int kMean_px = 8;  // width of the two means whose difference shows the edge
+constexpr double kLeastReach_px = 12, kReach_px = 32;  // width of a piece to both sides of the edge
 constexpr double kNear_px = 3;                         // rows whose edge is this near the curve belong to it
 constexpr double kLeastTilt_deg = 1, kMostTilt_deg = 40;
 
@@ -29,7 +29,7 @@ struct Upright {
     std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
 };
 
-// The mean change over kStep_px is less noisy than that of neighbours.
+// The mean change over kMean_px is less noisy than that of neighbours.
 double total_change(const EdgePicture& p, int dx, int dy) {
     double out = 0;
     for (int y = 0; y + dy < p.height; ++y)
@@ -42,7 +42,7 @@ double total_change(const EdgePicture& p, int dx, int dy) {
 }
 
 Upright upright(const EdgePicture& p) {
-    const bool transposed = total_change(p, 0, kStep_px) * p.width > total_change(p, kStep_px, 0) * p.height;
+    const bool transposed = total_change(p, 0, kMean_px) * p.width > total_change(p, kMean_px, 0) * p.height;
     Upright out{transposed ? p.height : p.width, transposed ? p.width : p.height, transposed, {}, {}};
     for (int y = 0; y < out.height; ++y)
         for (int x = 0; x < out.width; ++x) {
@@ -68,8 +68,8 @@ RowEdge edge_in_row(const Upright& p, int y) {
         return (sum[b] - sum[a]) / std::max(count[b] - count[a], 1.0);
     };
     RowEdge out{y + 0.5, 0, 0};
-    for (int x = kStep_px; x + kStep_px <= p.width; ++x) {
-        const double step = mean(x, x + kStep_px) - mean(x - kStep_px, x);
+    for (int x = kMean_px; x + kMean_px <= p.width; ++x) {
+        const double step = mean(x, x + kMean_px) - mean(x - kMean_px, x);
         if (std::abs(step) > std::abs(out.step)) out.x = x, out.step = step;
     }
     return out;
@@ -84,14 +84,14 @@ struct EdgeCurve {
     double slope() const { return c[1] + c[2] * (top + bottom); }
 };
 
-[[noreturn]] void refuse(const std::string& name, const std::string& found) {
+[[noreturn]] void refuse_edge(const std::string& name, const std::string& found) {
     throw InputError(name + ": found " + found +
                      fmt::format("; accepted: one straight edge between a bright and a dark surface across "
                                  "the picture, in focus, slanted by {:g} to {:g} degrees",
                                  kLeastTilt_deg, kMostTilt_deg));
 }
 
-double median(std::vector<double> values) {
+double median_value(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -103,9 +103,9 @@ std::vector<double> first_line(const std::vector<RowEdge>& rows) {
     const std::size_t half = rows.size() / 2;
     for (std::size_t i = 0; i + half < rows.size(); ++i)
         slopes.push_back((rows[i + half].x - rows[i].x) / (rows[i + half].y - rows[i].y));
-    const double slope = median(slopes);
+    const double slope = median_value(slopes);
     for (const RowEdge& r : rows) offsets.push_back(r.x - slope * r.y);
-    return {median(offsets), slope, 0};
+    return {median_value(offsets), slope, 0};
 }
 
 EdgeCurve find_curve(const Upright& p, double noise, const std::string& name) {
@@ -115,13 +115,13 @@ EdgeCurve find_curve(const Upright& p, double noise, const std::string& name) {
         rows.push_back(edge_in_row(p, y));
         steps.push_back(rows.back().step);
     }
-    const double step = median(steps);
+    const double step = median_value(steps);
     // Rows without the edge have steps of noise, or of something else.
     std::erase_if(rows, [&](const RowEdge& r) { return r.step * step < 0.5 * step * step; });
     if (static_cast<int>(rows.size()) < std::max(kLeastRows, p.height / 2) ||
-        std::abs(step) < 10 * noise / std::sqrt(1.0 * kStep_px))
-        refuse(name,
-               fmt::format("no edge in {} of {} rows", p.height - static_cast<int>(rows.size()), p.height));
+        std::abs(step) < 10 * noise / std::sqrt(1.0 * kMean_px))
+        refuse_edge(name, fmt::format("no edge in {} of {} rows", p.height - static_cast<int>(rows.size()),
+                                      p.height));
     EdgeCurve curve{first_line(rows), 0, 0, step};
     std::vector<RowEdge> near;
     for (int pass = 0; pass < 3; ++pass) {
@@ -131,7 +131,8 @@ EdgeCurve find_curve(const Upright& p, double noise, const std::string& name) {
             if (std::abs(r.x - curve.at(r.y)) < kNear_px)
                 near.push_back(r), y.push_back(r.y), x.push_back(r.x);
         if (near.size() < rows.size() * 2 / 3)
-            refuse(name, fmt::format("an edge that is straight in {} of {} rows", near.size(), rows.size()));
+            refuse_edge(name,
+                        fmt::format("an edge that is straight in {} of {} rows", near.size(), rows.size()));
         const std::vector<double> equal(y.size(), 1.0), none(y.size(), 0.0);
         curve.c = fit_polynomial(y, x, equal, none, 2).coefficient;
     }
@@ -144,8 +145,8 @@ EdgeCurve find_curve(const Upright& p, double noise, const std::string& name) {
     while (curve.bottom > curve.top && beside(curve.bottom - 1) < kLeastReach_px) --curve.bottom;
     const double tilt_deg = std::atan(std::abs(curve.slope())) / kDegree_rad;
     if (tilt_deg < kLeastTilt_deg || tilt_deg > kMostTilt_deg)
-        refuse(name, fmt::format("an edge at {:.1f} degrees from the {}", tilt_deg,
-                                 p.transposed ? "rows" : "columns"));
+        refuse_edge(name, fmt::format("an edge at {:.1f} degrees from the {}", tilt_deg,
+                                      p.transposed ? "rows" : "columns"));
     return curve;
 }
 
@@ -207,21 +208,22 @@ double jackknife_uncertainty(const std::vector<double>& without) {
 
 std::vector<EdgePiece> measure_edge_pieces(const EdgePicture& picture, const std::string& name) {
     if (std::min(picture.width, picture.height) < kLeastRows)
-        refuse(name, fmt::format("a picture of {} x {}", picture.width, picture.height));
+        refuse_edge(name, fmt::format("a picture of {} x {}", picture.width, picture.height));
     const Upright p = upright(picture);
     const EdgeCurve curve = find_curve(p, picture.noise, name);
     const int rows = curve.bottom - curve.top;
     // Two cycles of the edge's position on the pixel grid in each piece.
     const int least = std::max(kLeastRows, static_cast<int>(std::ceil(2 / std::abs(curve.slope()))) + 2);
     if (rows < least)
-        refuse(name, fmt::format("an edge over {} rows, where {} show two steps of a pixel", rows, least));
+        refuse_edge(name,
+                    fmt::format("an edge over {} rows, where {} show two steps of a pixel", rows, least));
     const int pieces = std::clamp(rows / least, 1, kMostPieces), height = rows / pieces;
     std::vector<EdgePiece> out;
     try {
         for (int i = 0; i < pieces; ++i)
             out.push_back(measure_piece(p, curve, curve.top + i * height, height, picture.noise));
     } catch (const InputError& error) {
-        refuse(name, error.what());
+        refuse_edge(name, error.what());
     }
     return out;
 }

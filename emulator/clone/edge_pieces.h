@@ -16,8 +16,8 @@ namespace hilcam {
 
 struct EdgePiece {
     Vec2d place_px;                            // middle of the piece on the picture
-    EdgeMtf mtf;                               // uncertainty: of the jackknife
-    std::vector<std::vector<double>> without;  // the MTF without each of the blocks
+    EdgeMtf mtf;                               // MTF, with the jackknife's uncertainty
+    std::vector<std::vector<double>> without;  // MTF curve without each block
 };
 // Returns the standard deviation of a figure from its values without each block.
 double jackknife_uncertainty(const std::vector<double>& without);

@@ -15,7 +15,7 @@ constexpr std::size_t kDarks = 12, kShown = 5;
 // A dark frame with more than this part of the bright ones was still lit when its exposure began.
 constexpr double kPartlyLit = 0.1;
 constexpr std::size_t kMostPartlyLit = 2;
-constexpr double kWorstScatter = 0.02;  // of the dark frames, as a part of the bright ones
+constexpr double kWorstScatter = 0.02;  // scatter of the dark frames, as a part of the bright ones
 
 struct Decay {
     std::vector<double> left;

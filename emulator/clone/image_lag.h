@@ -16,7 +16,8 @@ struct ImageLag {
     std::size_t passed_over = 0;  // frames that were lit in part while the light went off
 };
 
-// means: of the frames, in the order of their taking [any unit that is linear in light], bright ones first;
+// means: mean values of the frames, in the order of their taking [any unit that is linear in light], bright
+// ones first;
 // the light may go on and off several times. Throws InputError, one line, for frames without bright ones that
 // at least twelve dark ones follow.
 ImageLag image_lag(std::span<const double> means, const std::string& name);

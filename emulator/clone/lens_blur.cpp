@@ -14,8 +14,9 @@ namespace hilcam {
 namespace {
 
 constexpr double kFirst_cy_px = 0.05, kLast_cy_px = 0.5;  // frequencies that count
-constexpr double kModelError = 0.003;  // of the edge's method; keeps quiet frequencies from ruling the fit
-constexpr int kSteps = 40;
+constexpr double kModelError =
+    0.003;  // error of the edge's method; keeps quiet frequencies from ruling the fit
+constexpr int kBlurSteps = 40;
 constexpr double kSameHeight = 0.06;  // pieces of this difference in image height are one zone
 
 // Eight bins over the wavelengths that the camera sees.
@@ -41,8 +42,8 @@ CameraModel without_blur(CameraModel camera) {
 // MTF of the camera at a piece's frequencies for steps of the blur. Both kinds lower the MTF by about the
 // square of the blur, so the square is the variable: it is found without bias, below zero as well.
 struct BlurTable {
-    std::vector<double> square_m2;         // of each step
-    std::vector<std::vector<double>> mtf;  // for each step, for each frequency
+    std::vector<double> square_m2;         // square of the blur at each step
+    std::vector<std::vector<double>> mtf;  // curve at each step
 };
 
 class BlurModel {
@@ -58,8 +59,8 @@ class BlurModel {
         const double most = kind == BlurKind::kWavefront ? 0.25 * wavelength_m
                                                          : 3 * wavelength_m * 8 * square(camera_.f_number);
         BlurTable out;
-        for (int i = 0; i <= kSteps; ++i) {
-            const double blur = most * i / kSteps;
+        for (int i = 0; i <= kBlurSteps; ++i) {
+            const double blur = most * i / kBlurSteps;
             const LensState lens = kind == BlurKind::kWavefront ? LensState{0, blur} : LensState{blur, 0};
             const SystemMtf mtf(camera_, OpticsOtf(camera_, grid_, response_, lens));
             out.square_m2.push_back(square(blur));
