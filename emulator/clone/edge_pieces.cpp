@@ -219,12 +219,15 @@ std::vector<EdgePiece> measure_edge_pieces(const EdgePicture& picture, const std
                     fmt::format("an edge over {} rows, where {} show two steps of a pixel", rows, least));
     const int pieces = std::clamp(rows / least, 1, kMostPieces), height = rows / pieces;
     std::vector<EdgePiece> out;
-    try {
-        for (int i = 0; i < pieces; ++i)
+    std::string why;
+    for (int i = 0; i < pieces; ++i) {
+        try {
             out.push_back(measure_piece(p, curve, curve.top + i * height, height, picture.noise));
-    } catch (const InputError& error) {
-        refuse_edge(name, error.what());
+        } catch (const InputError& error) {
+            why = error.what();  // a lens's distortion may have turned a piece upright
+        }
     }
+    if (out.empty()) refuse_edge(name, why);
     return out;
 }
 

@@ -76,13 +76,12 @@ CloneOptics measured(const HiddenLens& hidden, double tilt_deg, unsigned seed) {
     const SpectralGrid grid({0.54, 0.56});
     CameraBench bench(hidden.camera, grid, {16, 8, 2}, 1, {}, seed);
     Exposure exposure;
-    exposure.exposure_s = 1;
+    exposure.exposure_s = 0.1;
     bench.show({0.8, 0.8, 0});
-    bench.expose(exposure, 1e-6);
+    bench.expose(exposure, 1);
     // As bright as 80 % of the full well.
     const double dn = static_cast<double>(bench.frame(0).row(kSize / 2)[kSize / 2]) - hidden.camera.offset_dn;
-    const double filter =
-        1e-6 * 0.8 * hidden.camera.full_well_e * hidden.camera.gain_dn_e / std::max(dn, 1.0);
+    const double filter = 0.8 * hidden.camera.full_well_e * hidden.camera.gain_dn_e / std::max(dn, 1.0);
     bench.expose(exposure, filter);
     FrameSet frames;
     frames.name = "hidden", frames.width = frames.height = kSize, frames.bits = 12;

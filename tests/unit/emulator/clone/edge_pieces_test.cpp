@@ -116,7 +116,7 @@ TEST(EdgePieces, UncertaintyIsThatOfTheErrors) {
 
 TEST(EdgePieces, ABentEdgeIsFollowed) {
     EdgeShape shape;
-    shape.bend_px = 4;
+    shape.bend_px = 1.5;
     for (const EdgePiece& piece : measured(shape))
         EXPECT_NEAR(piece.mtf.mtf[16], expected(shape, 0.25), 4 * piece.mtf.uncertainty[16] + 0.02);
 }
