@@ -85,17 +85,17 @@ class CloneLive(unittest.TestCase):
         cls.log.close()
         cls.temporary.cleanup()
 
-    def look(self, z):
-        """A command that points the camera at the plate (0) or away from it into the dark (40)."""
-        return shlex.join([HILCAM, "send", "--to", f"127.0.0.1:{PORT}", "pose", "--position-m", "0,0,20", "--look-at-m", f"0,0,{z}",
-                           "--up", "0,1,0"])
+    def look(self, x, z):
+        """A command that points the camera at a place of the plane y = 0."""
+        return shlex.join([HILCAM, "send", "--to", f"127.0.0.1:{PORT}", "pose", "--position-m", "0", "0", "20", "--look-at-m", str(x),
+                           "0", str(z), "--up", "0", "1", "0"])
 
     def clone(self, out, *more, answers=""):
         return subprocess.run([HILCAM, "clone", ADDRESS, "--like", "sheet.yaml", "--out", out, "--count", "16", "--json", *more],
                               cwd=self.folder, capture_output=True, text=True, timeout=280, input=answers)
 
     def test_a_camera_is_cloned_from_its_address(self):
-        result = self.clone("mine.yaml", "--light", self.look(0), "--cover", self.look(40))
+        result = self.clone("mine.yaml", "--light", self.look(0, 0), "--cover", self.look(100, 20))
         self.assertEqual(result.returncode, 0, result.stderr)
         figures = json.loads(result.stdout[result.stdout.index("\n{\n"):])["figures"]
         for key, truth in TRUTH.items():
