@@ -59,11 +59,13 @@ class CloneText {
     std::string write() {
         head();
         figures();
+        lens();
+        blur();
         maps();
         std::string out = std::move(out_);
         out += "\n# --- What the frames do not tell: as of " + source_.like.name + "\n";
         for (const CloneFigure& f : figures_)
-            if (!f.measured) out += "# " + f.key + ": " + f.why + "\n";
+            if (!f.measured && !f.why.empty()) out += "# " + f.key + ": " + f.why + "\n";
         for (const std::string& one : source_.overrides) {
             const std::size_t equals = one.find('=');
             out += one.substr(0, equals) + ": " + one.substr(equals + 1) + "   # --set\n";
@@ -127,6 +129,46 @@ class CloneText {
             out_ += fmt::format("temperature_c: {:g}\n", m_.temperature_c);
             replaced_.emplace_back("temperature_c");
         }
+    }
+    void lens() {
+        if (!m_.optics.lens) return;
+        const LensCalibration& l = *m_.optics.lens;
+        replace({"principal_point_px", "distortion", "distortion_x_mm", "distortion_y_mm"});
+        figure("focal_length_mm");
+        out_ += fmt::format("principal_point_px: [{:.2f}, {:.2f}]   # +- {:.2g}, {:.2g}\n",
+                            l.principal_x_px.value, l.principal_y_px.value, l.principal_x_px.uncertainty,
+                            l.principal_y_px.uncertainty);
+        std::string values, errors;
+        for (const std::optional<Measured>& term : {l.k1, l.k2, l.p1, l.p2, l.k3}) {
+            const Measured seen = term.value_or(Measured{});
+            values += (values.empty() ? "" : ", ") + fmt::format("{:.6g}", seen.value);
+            errors += (errors.empty() ? "" : ", ") + fmt::format("{:.2g}", seen.uncertainty);
+        }
+        out_ += "distortion: [" + values + "]   # +- " + errors + "; 0 +- 0: not seen\n";
+        out_ += fmt::format(
+            "# {} boards, {:.2g} px from the model; beyond {:.0f} % of the corner's image height "
+            "nothing was seen\n",
+            l.boards, l.residual_px, 100 * std::min(1.0, l.field_fraction));
+    }
+    void blur() {
+        if (!m_.optics.blur || m_.optics.blur->zones.empty()) return;
+        const LensBlur& b = *m_.optics.blur;
+        replace({"wavefront_rms_nm", "defocus_um", "zernike_nm", "measured_mtf", "field_zones"});
+        const char* key = b.kind == BlurKind::kWavefront ? "wavefront_rms_nm" : "defocus_um";
+        const double unit_m = b.kind == BlurKind::kWavefront ? 1e-9 : 1e-6;
+        if (b.zones.size() > 1) out_ += "field_zones:\n";
+        for (const LensZone& z : b.zones) {
+            const std::string value = fmt::format("{}: {:.5g}", key, z.blur_m.value / unit_m);
+            std::string line = b.zones.size() == 1 ? value
+                                                   : fmt::format("  - {{field_fraction: {:.3f}, {}}}",
+                                                                 z.field_fraction, value);
+            line.resize(std::max<std::size_t>(line.size() + 1, 60), ' ');
+            out_ += line + fmt::format("# +- {:.2g}; MTF within {:.3f} of the measured one\n",
+                                       z.blur_m.uncertainty / unit_m, z.misfit);
+        }
+    }
+    void replace(const std::vector<std::string>& keys) {
+        replaced_.insert(replaced_.end(), keys.begin(), keys.end());
     }
     void maps() {
         out_ += "# Differences between pixels are in the maps, with the spreads below.\n";

@@ -22,6 +22,57 @@ std::optional<Measured> dark_spread(const CloneMeasurement& m) {
                     std::hypot(spread.uncertainty / mean.value, ratio * mean.uncertainty / mean.value)};
 }
 
+std::optional<Measured> scaled(const std::optional<Measured>& m, double factor) {
+    return m ? std::optional<Measured>({m->value * factor, m->uncertainty * factor}) : std::nullopt;
+}
+
+// The figures of the lens and of lag, which other series than darks and flats show.
+std::vector<CloneFigure> optics_figures(const CloneOptics& o, const CameraModel& like) {
+    const auto of_lens = [&](Measured LensCalibration::*part) {
+        return o.lens ? std::optional<Measured>((*o.lens).*part) : std::nullopt;
+    };
+    const auto term = [&](std::optional<Measured> LensCalibration::*part) {
+        return o.lens ? (*o.lens).*part : std::nullopt;
+    };
+    const char* no_board = "no chessboard";
+    const char* no_term = o.lens ? "the boards do not show it: 0" : no_board;
+    const auto coefficient = [&](std::size_t i) {
+        return like.distortion.size() > i ? like.distortion[i] : 0;
+    };
+    const bool given = like.principal_point_px.size() == 2;
+    const auto axis = [&](std::size_t i, std::int64_t size_px) {
+        return given ? like.principal_point_px[i] : 0.5 * static_cast<double>(size_px);
+    };
+    const auto blur = [&](BlurKind kind, double unit_m) {
+        const bool seen = o.blur && o.blur->kind == kind && !o.blur->zones.empty();
+        return seen ? scaled(o.blur->zones.front().blur_m, 1 / unit_m) : std::nullopt;
+    };
+    const char* other_blur = "an error of the other kind describes the edges";
+    const auto why_no_blur = [&](BlurKind kind) {
+        return !o.blur ? "no edge" : o.blur->kind == kind ? "" : other_blur;
+    };
+    return {
+        {"focal_length_mm", "Focal length", "mm",
+         scaled(of_lens(&LensCalibration::focal_length_px), like.pitch_m * 1e3), like.focal_length_m * 1e3,
+         no_board},
+        {"principal_point_x_px", "Principal point x", "px", of_lens(&LensCalibration::principal_x_px),
+         axis(0, like.width_px), no_board},
+        {"principal_point_y_px", "Principal point y", "px", of_lens(&LensCalibration::principal_y_px),
+         axis(1, like.height_px), no_board},
+        {"distortion_k1", "Distortion k1", "", term(&LensCalibration::k1), coefficient(0), no_term},
+        {"distortion_k2", "Distortion k2", "", term(&LensCalibration::k2), coefficient(1), no_term},
+        {"distortion_p1", "Distortion p1", "", term(&LensCalibration::p1), coefficient(2), no_term},
+        {"distortion_p2", "Distortion p2", "", term(&LensCalibration::p2), coefficient(3), no_term},
+        {"distortion_k3", "Distortion k3", "", term(&LensCalibration::k3), coefficient(4), no_term},
+        {"wavefront_rms_nm", "Wavefront error, innermost", "nm", blur(BlurKind::kWavefront, 1e-9),
+         like.wavefront_rms_m * 1e9, why_no_blur(BlurKind::kWavefront)},
+        {"defocus_um", "Defocus, innermost", "um", blur(BlurKind::kDefocus, 1e-6), like.defocus_m * 1e6,
+         why_no_blur(BlurKind::kDefocus)},
+        {"lag_fraction", "Lag in the next frame", "",
+         o.lag ? std::optional<Measured>(o.lag->left.front()) : std::nullopt, 0, "no series of lag"},
+    };
+}
+
 const char* why_no_bend(const CloneMeasurement& m) {
     return m.light_known ? "fewer than six levels below saturation" : "the light of the levels is not stated";
 }
@@ -38,7 +89,7 @@ std::vector<CloneFigure> clone_figures(const CloneMeasurement& m, const CameraMo
     const FixedPatternConfig& f = like.fixed_pattern;
     const double gain_at_0_db = std::pow(10, -m.gain_db / 20);
     const Measured gain{m.gain_dn_e.value * gain_at_0_db, m.gain_dn_e.uncertainty * gain_at_0_db};
-    return {
+    std::vector<CloneFigure> out = {
         {"gain_dn_e", "System gain K", "DN/e-", gain, like.system_gain_dn_e(0), ""},
         {"offset_dn", "Black level", "DN", m.offset_dn, like.offset_dn, ""},
         {"read_noise_e", "Read noise of a pixel", "e-", m.read_noise_e,
@@ -63,6 +114,9 @@ std::vector<CloneFigure> clone_figures(const CloneMeasurement& m, const CameraMo
         {"dark_current_fraction", "Spread of dark currents", "", dark_spread(m), f.dark_current_fraction,
          "the dark current is not seen"},
     };
+    const std::vector<CloneFigure> optics = optics_figures(m.optics, like);
+    out.insert(out.end(), optics.begin(), optics.end());
+    return out;
 }
 
 const CloneFigure& figure_of(const std::vector<CloneFigure>& figures, const char* key) {

@@ -4,8 +4,8 @@
 //
 // Gain, response, dark current and spreads come from the estimators of `hilcam characterise`
 // (sensor/measure/emva1288.h), which get their light from the lamp; here only the ratio of the light from
-// flat to flat is known, from exposure times or the manifest. So the quantum efficiency is not measured, and
-// everything that needs the lens is not, either. The illumination's own shading looks like the
+// flat to flat is known, from exposure times or the manifest. So the quantum efficiency is not measured. What
+// shows the lens is measured by itself (clone_optics.h). The illumination's own shading looks like the
 // sensor's: a smooth surface is divided out of the flats.
 //
 // Figures hold for the temperature of the flats, or that with the most series of darks. The noise of the
@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/clone/clone_optics.h"
 #include "emulator/clone/frame_set.h"
 #include "sensor/camera_model.h"
 #include "sensor/measure/emva1288.h"
@@ -73,6 +74,7 @@ struct CloneMeasurement {
     std::vector<ListedDefect> defects;
     double hot_limit_e_s = 0;  // excess of dark current from which a pixel is listed as hot
     Measured blinking_frames;  // mean number of frames between two draws of a blinking pixel's state; 0: none
+    CloneOptics optics;        // filled by measure_optics()
     std::vector<std::string> remarks;  // limits of these figures that a reader must know
 };
 

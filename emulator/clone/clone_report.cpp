@@ -136,6 +136,60 @@ json linearity_json(const CloneMeasurement& m) {
     return out;
 }
 
+// The lens's MTF at each image height, measured and as the clone has it.
+json zones_json(const CloneOptics& o) {
+    json out = json::array();
+    if (!o.blur) return out;
+    for (const LensZone& z : o.blur->zones) {
+        json curve = json::array();
+        for (std::size_t k = 0; k < z.mtf.size(); ++k)
+            curve.push_back({{"frequency_cy_px", z.frequency_cy_px[k]},
+                             {"measured", z.mtf[k]},
+                             {"uncertainty", z.uncertainty[k]},
+                             {"clone", z.described[k]}});
+        out.push_back({{"field_fraction", z.field_fraction},
+                       {"kind", o.blur->kind == BlurKind::kWavefront ? "wavefront" : "defocus"},
+                       {"blur_m", z.blur_m.value},
+                       {"uncertainty_m", z.blur_m.uncertainty},
+                       {"misfit", z.misfit},
+                       {"mtf", std::move(curve)}});
+    }
+    return out;
+}
+
+json lag_json(const CloneOptics& o) {
+    json out = json::array();
+    if (o.lag)
+        for (const Measured& one : o.lag->left)
+            out.push_back({{"fraction", one.value}, {"uncertainty", one.uncertainty}});
+    return out;
+}
+
+// A line for each image height.
+std::string zones_table(const CloneOptics& o) {
+    if (!o.blur) return {};
+    std::string out = "\nimage height   MTF at a quarter and half a cycle a pixel: measured, clone's\n";
+    for (const LensZone& z : o.blur->zones) {
+        out += fmt::format("{:>10.0f} %", 100 * z.field_fraction);
+        for (const double f : {0.25, 0.5}) {
+            const auto k = static_cast<std::size_t>(std::lround(f / z.frequency_cy_px[1]));
+            out += fmt::format("   {:.3f} +- {:.3f}, {:.3f}", z.mtf[k], z.uncertainty[k], z.described[k]);
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+std::string lag_table(const CloneOptics& o) {
+    if (!o.lag) return {};
+    std::string out = "lag, frame after frame:";
+    for (const Measured& one : o.lag->left)
+        out += fmt::format(" {:.2g} +- {:.1g},", one.value, one.uncertainty);
+    out += " not emulated";
+    if (o.lag->passed_over > 0) out += fmt::format("; {} partly lit frames passed over", o.lag->passed_over);
+    return out + "\n";
+}
+
 }  // namespace
 
 json clone_json(const CloneMeasurement& m, const CameraModel& like) {
@@ -161,6 +215,8 @@ json clone_json(const CloneMeasurement& m, const CameraModel& like) {
             {"hot_limit_e_s", m.hot_limit_e_s},
             {"dead", count_of(m, DefectKind::kDead)},
             {"blinking", count_of(m, DefectKind::kBlinking)},
+            {"field_zones", zones_json(m.optics)},
+            {"lag", lag_json(m.optics)},
             {"remarks", m.remarks}};
 }
 
@@ -183,6 +239,7 @@ std::string clone_table(const CloneMeasurement& m, const CameraModel& like) {
     out += fmt::format(
         "expected correlation of the maps with the camera's own: offset {}, dark current {}, gain {}\n",
         correlation(m.offset_e), correlation(m.dark_e_s), correlation(m.gain));
+    out += zones_table(m.optics) + lag_table(m.optics);
     for (const std::string& remark : m.remarks) out += remark + "\n";
     return out;
 }

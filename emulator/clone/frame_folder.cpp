@@ -81,18 +81,30 @@ std::vector<NamedSeries> series_by_manifest(const fs::path& folder, const Frames
 }
 
 std::vector<NamedSeries> series_by_names(const fs::path& folder) {
-    using Key = std::tuple<int, double, double, double, double>;
+    using Key = std::tuple<int, double, double, double, double, std::string>;
     std::map<Key, NamedSeries> found;
     for (const fs::path& file : files_in(folder)) {
         if (!is_picture(file)) continue;
         fs::path name = file;
         const std::optional<SeriesConfig> s = settings_in_name(name.replace_extension().string());
         if (!s) continue;
-        if (s->exposure_s <= 0)
+        const bool measures_pixels =
+            s->kind == SeriesConfig::Kind::kDark || s->kind == SeriesConfig::Kind::kFlat;
+        if (measures_pixels && s->exposure_s <= 0)
             throw InputError((folder / file).string() +
                              ": found no exposure in the name; accepted: one such as 20ms, 250us or 1.5s");
-        const Key key{static_cast<int>(s->kind), s->exposure_s,
-                      s->has_temperature_c ? s->temperature_c : -1e3, s->gain_db, s->light};
+        if (s->kind == SeriesConfig::Kind::kChessboard && s->corners.empty())
+            throw InputError((folder / file).string() +
+                             ": found no number of corners in the name; accepted: the inner corners of the "
+                             "chessboard, as chessboard_9x6");
+        // Each edge, and each board, is a folder of its own.
+        const std::string place = measures_pixels ? "" : file.parent_path().string();
+        const Key key{static_cast<int>(s->kind),
+                      s->exposure_s,
+                      s->has_temperature_c ? s->temperature_c : -1e3,
+                      s->gain_db,
+                      s->light,
+                      place};
         NamedSeries& series = found[key];
         if (series.files.empty()) {
             series.settings = *s;
@@ -152,6 +164,8 @@ class FrameFiles {
         kept_.emplace(relative.string(), std::move(frame));
     }
 
+    std::string name_of(const fs::path& relative) const { return (folder_ / relative).string(); }
+
   private:
     fs::path folder_;
     FramesConfig config_;
@@ -182,7 +196,28 @@ FramesConfig config_of(const fs::path& folder, const RawShape& shape, const Came
 FrameSeries series_of(const NamedSeries& named, const std::shared_ptr<FrameFiles>& files) {
     FrameSeries out;
     out.name = named.name;
-    out.kind = named.settings.kind == SeriesConfig::Kind::kDark ? SeriesKind::kDark : SeriesKind::kFlat;
+    switch (named.settings.kind) {
+        case SeriesConfig::Kind::kDark:
+            out.kind = SeriesKind::kDark;
+            break;
+        case SeriesConfig::Kind::kFlat:
+            out.kind = SeriesKind::kFlat;
+            break;
+        case SeriesConfig::Kind::kEdge:
+            out.kind = SeriesKind::kEdge;
+            break;
+        case SeriesConfig::Kind::kChessboard:
+            out.kind = SeriesKind::kChessboard;
+            break;
+        case SeriesConfig::Kind::kLag:
+            out.kind = SeriesKind::kLag;
+            break;
+    }
+    if (named.settings.corners.size() == 2) {
+        out.corner_columns = static_cast<int>(named.settings.corners[0]);
+        out.corner_rows = static_cast<int>(named.settings.corners[1]);
+    }
+    for (const fs::path& file : named.files) out.files.push_back(files->name_of(file));
     out.exposure_s = named.settings.exposure_s;
     if (named.settings.has_temperature_c) out.temperature_c = named.settings.temperature_c;
     out.gain_db = named.settings.gain_db;
@@ -211,7 +246,11 @@ FrameSet read_frame_folder(const fs::path& folder, const RawShape& shape, const 
     out.name = folder.string();
     out.width = first.width(), out.height = first.height();
     out.bits = static_cast<int>(config.bits);
-    for (const NamedSeries& series : named) out.series.push_back(series_of(series, files));
+    for (const NamedSeries& one : named) {
+        FrameSeries series = series_of(one, files);
+        const bool measures_pixels = series.kind == SeriesKind::kDark || series.kind == SeriesKind::kFlat;
+        (measures_pixels ? out.series : out.others).push_back(std::move(series));
+    }
     return out;
 }
 

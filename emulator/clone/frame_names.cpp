@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
@@ -33,6 +35,31 @@ std::optional<double> exposure_in(std::string_view word) {
     return std::nullopt;
 }
 
+std::optional<SeriesConfig::Kind> kind_in(std::string_view word) {
+    using Kind = SeriesConfig::Kind;
+    for (const auto& [name, kind] : {std::pair{"dark", Kind::kDark},
+                                     {"bias", Kind::kDark},
+                                     {"flat", Kind::kFlat},
+                                     {"edge", Kind::kEdge},
+                                     {"chessboard", Kind::kChessboard},
+                                     {"lag", Kind::kLag}})
+        if (word == name) return kind;
+    return std::nullopt;
+}
+
+// Returns the inner corners of a chessboard, as in 9x6; empty when the word is not that.
+std::vector<double> corners_in(std::string_view word) {
+    const std::size_t x = word.find('x');
+    if (x == std::string_view::npos) return {};
+    std::vector<double> out;
+    for (const std::string_view part : {word.substr(0, x), word.substr(x + 1)}) {
+        const std::optional<double> value = number_of(std::string(part));
+        if (!value || !(*value >= 3 && *value <= 100) || *value != std::floor(*value)) return {};
+        out.push_back(*value);
+    }
+    return out;
+}
+
 class Words {
   public:
     explicit Words(std::string_view name) : name_(name) {}
@@ -50,10 +77,11 @@ class Words {
 
   private:
     void take(const std::string& word) {
-        if (word == "dark" || word == "bias" || word == "flat") {
-            const auto kind = word == "flat" ? SeriesConfig::Kind::kFlat : SeriesConfig::Kind::kDark;
-            if (has_kind_ && out_.kind != kind) refuse("both dark and flat", "one of them");
-            out_.kind = kind, has_kind_ = true;
+        if (const std::optional<SeriesConfig::Kind> kind = kind_in(word)) {
+            if (has_kind_ && out_.kind != *kind) refuse("two kinds of frames", "one of them");
+            out_.kind = *kind, has_kind_ = true;
+        } else if (const std::vector<double> corners = corners_in(word); !corners.empty()) {
+            out_.corners = corners;
         } else if (const std::optional<double> s = exposure_in(word)) {
             if (out_.exposure_s > 0 && std::abs(out_.exposure_s / *s - 1) > 1e-9)
                 refuse("two exposures", "one, as 20ms");

@@ -2,8 +2,9 @@
 // Reads how frames were taken out of the names of folders and files: "dark_20ms_25c/0001.png",
 // "flat_5ms_25c_light0.5_007.tiff".
 //
-// Words are separated by _ and /. Known ones: dark or bias, flat; an exposure as 250us, 20ms or 1.5s; a
-// temperature as 25c or -10c; a gain as 6db; light as light0.5. Others, such as a number, are not used.
+// Words are separated by _ and /. Known ones: dark or bias, flat, edge, chessboard, lag; an exposure as
+// 250us, 20ms or 1.5s; a temperature as 25c or -10c; a gain as 6db; light as light0.5; inner corners of a
+// chessboard as 9x6. Others, such as a number, are not used.
 
 #include <optional>
 #include <string>

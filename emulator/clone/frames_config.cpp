@@ -1,23 +1,36 @@
 #include "emulator/clone/frames_config.h"
 
+#include <cmath>
+
 namespace hilcam {
 
 Fields fields(SeriesConfig& s) {
     return {
-        required(choice("kind", s.kind, {"dark", "flat"},
-                        "dark: without any light; flat: of an evenly lit surface")),
-        required(number("exposure_ms", s.exposure_s, 1e-3, {1e-6, 1e7}, "exposure time")),
+        required(choice("kind", s.kind, {"dark", "flat", "edge", "chessboard", "lag"},
+                        "dark: without any light; flat: of an evenly lit surface; edge: of a slanted edge; "
+                        "chessboard: a board in many poses; lag: bright flats, then darks")),
+        number("exposure_ms", s.exposure_s, 1e-3, {0, 1e7}, "exposure time; darks and flats need it"),
         optional(number("temperature_c", s.temperature_c, 1, {-200, 150}, "temperature of the detector"),
                  s.has_temperature_c),
         number("gain_db", s.gain_db, 1, {-60, 60}, "gain; the same for all series"),
         number("light", s.light, 1, {1e-9, 1e12},
                "light of a flat in any unit that is the same for all flats, if it was not constant"),
+        numbers("corners", s.corners, 1, {3, 100}, {2, 2},
+                "inner corners of the chessboard in a row and in a column, as [9, 6]"),
         required(texts("files", s.files, "names of the frames, with * and ?, in the order of their taking")),
     };
 }
 
 void validate(const SeriesConfig& s) {
     if (s.files.empty()) throw refused_key("files", "no name", "names, such as [\"dark_10ms/*.png\"]");
+    const bool measures_pixels = s.kind == SeriesConfig::Kind::kDark || s.kind == SeriesConfig::Kind::kFlat;
+    if (measures_pixels && s.exposure_s < 1e-9)
+        throw refused_key("exposure_ms", "none", "the exposure time of the darks or flats [ms]");
+    if (s.kind == SeriesConfig::Kind::kChessboard && s.corners.empty())
+        throw refused_key("corners", "none", "inner corners of the chessboard, as [9, 6]");
+    for (const double corner : s.corners)
+        if (corner != std::floor(corner))
+            throw refused_key("corners", "a fraction", "whole numbers, as [9, 6]");
 }
 
 Fields fields(FramesConfig& f) {

@@ -1,6 +1,6 @@
 #pragma once
-// The manifest of a folder of a camera's own frames, frames.yaml: which files are darks and flats, and how
-// they were taken. Without a manifest the names of folders and files say it (frame_names.h).
+// The manifest of a folder of a camera's own frames, frames.yaml: which files are darks, flats and others,
+// and how they were taken. Without a manifest the names of folders and files say it (frame_names.h).
 
 #include <cstdint>
 #include <string>
@@ -11,12 +11,13 @@
 namespace hilcam {
 
 struct SeriesConfig {
-    enum class Kind { kDark, kFlat } kind = Kind::kDark;
+    enum class Kind { kDark, kFlat, kEdge, kChessboard, kLag } kind = Kind::kDark;
     double exposure_s = 0;
     double temperature_c = 0;
     bool has_temperature_c = false;
     double gain_db = 0;
     double light = 1;
+    std::vector<double> corners;     // inner corners of a chessboard in a row, in a column
     std::vector<std::string> files;  // names with * and ?, relative to the manifest
 };
 Fields fields(SeriesConfig& series);

@@ -1,13 +1,16 @@
 // `hilcam clone`: a camera file with the flaws of one particular camera, from its own frames.
 
+#include <arpa/inet.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "emulator/clone/clone_report.h"
 #include "emulator/clone/frame_folder.h"
 #include "emulator/progress/progress.h"
+#include "emulator/run/page_maker.h"
 #include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "io/config/config_yaml.h"
@@ -22,7 +25,35 @@ struct CloneArguments {
     ConfigArguments like;
     RawShape shape;
     bool json = false;
+    // Frames that are taken from a camera.
+    std::filesystem::path taken;
+    std::int64_t count = 0;
+    bool yes = false;
+    std::string cover, light;
 };
+
+bool is_address(const std::filesystem::path& word) {
+    in_addr unused{};
+    return inet_pton(AF_INET, word.c_str(), &unused) == 1;
+}
+
+// Takes flats and darks from the camera at an address with hilcam-record-frames, into a new folder.
+std::filesystem::path take_frames(const CloneArguments& o) {
+    std::filesystem::path folder = o.taken;
+    if (folder.empty()) folder = o.out.parent_path() / (o.out.stem().string() + "_frames");
+    if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder))
+        throw InputError(folder.string() + ": found files in it; accepted: a new folder for the frames of " +
+                         o.frames.string() + ", or hilcam clone " + folder.string() + " for those there");
+    std::vector<std::string> arguments = {"all", o.frames.string(), folder.string()};
+    if (o.count > 0) arguments.insert(arguments.end(), {"--frames", std::to_string(o.count)});
+    if (o.yes) arguments.emplace_back("--yes");
+    if (!o.cover.empty()) arguments.insert(arguments.end(), {"--cover", o.cover});
+    if (!o.light.empty()) arguments.insert(arguments.end(), {"--light", o.light});
+    std::fflush(stdout);
+    if (run_helper("hilcam-record-frames", arguments, "no frames are taken") != 0)
+        throw DeviceError("hilcam-record-frames failed (see above): no frames of " + o.frames.string());
+    return folder;
+}
 
 // The text of --like is copied, so only its own keys can be replaced.
 void require_top_level(const std::vector<std::string>& overrides) {
@@ -50,13 +81,19 @@ int carry_out(const CloneArguments& o) {
     require_top_level(o.like.overrides);
     CloneSource source;
     read_config(o.like.file, section_of(source.like), o.like.overrides);
-    source.frames = o.frames.string(), source.like_file = o.like.file, source.overrides = o.like.overrides;
-    const FrameSet frames = read_frame_folder(o.frames, o.shape, source.like);
+    const bool live = !o.taken.empty() || (is_address(o.frames) && !std::filesystem::exists(o.frames));
+    const std::filesystem::path folder = live ? take_frames(o) : o.frames;
+    source.frames = folder.string(), source.like_file = o.like.file, source.overrides = o.like.overrides;
+    const FrameSet frames = read_frame_folder(folder, o.shape, source.like);
     require_size(frames, source.like, o.like.file);
-    for (const FrameSeries& s : frames.series) source.frame_count += s.frames;
+    for (const std::vector<FrameSeries>* some : {&frames.series, &frames.others})
+        for (const FrameSeries& s : *some) source.frame_count += s.frames;
     const CloneMeasurement clone = [&] {
         Progress progress("measuring frames", 1);
-        return measure_clone(frames, source.like, [&](double share) { progress.done(share); });
+        CloneMeasurement out =
+            measure_clone(frames, source.like, [&](double share) { progress.done(0.9 * share); });
+        out.optics = measure_optics(frames, source.like, out);
+        return out;
     }();
     write_clone(clone, source, o.out);
     fmt::print("{}",
@@ -71,7 +108,10 @@ void add_clone_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<CloneArguments>();
     CLI::App* command =
         app.add_subcommand("clone", "make a camera file with the flaws of your camera, from its frames");
-    command->add_option("frames", o->frames, "folder of darks and flats (docs/clone.md)")->required();
+    command
+        ->add_option("frames", o->frames,
+                     "folder of darks and flats (docs/clone.md), or the address of a GigE Vision camera")
+        ->required();
     command
         ->add_option("--like", o->like.file,
                      "camera file, or the name of a shipped one, for what frames do not tell: lens, quantum "
@@ -86,9 +126,18 @@ void add_clone_command(CLI::App& app, Action& action) {
     command->add_option("--bits", o->shape.bits, "bits of a number")->check(CLI::Range(1, 16));
     command->add_option("--report", o->report,
                         "folder for a page that lays the frames beside those of the emulated camera");
+    command->add_option("--frames", o->taken,
+                        "new folder for the frames that are taken from the camera of that address or name "
+                        "(NAME_frames beside --out)");
+    command->add_option("--count", o->count, "frames of each exposure that are taken (64)")
+        ->check(CLI::Range(8, 10000));
+    command->add_flag("--yes", o->yes, "do not ask for light and darkness before frames are taken");
+    command->add_option("--cover", o->cover, "shell command that makes it dark, before darks are taken");
+    command->add_option("--light", o->light, "shell command that lights the surface, before flats are taken");
     command->add_flag("--json", o->json, "machine-readable");
     set_examples(command, {"hilcam clone my_frames --like mv_imx249 --out my_camera.yaml",
-                           "hilcam clone my_frames --like mv_imx249 --out mine.yaml --report report"});
+                           "hilcam clone my_frames --like mv_imx249 --out mine.yaml --report report",
+                           "hilcam clone 192.168.1.20 --like mv_imx249 --out my_camera.yaml"});
     when_named(command, action, o, carry_out);
 }
 

@@ -19,6 +19,7 @@ install(TARGETS hilcam RUNTIME COMPONENT program)
 install(PROGRAMS tools/hilcam-plot-campaign tools/hilcam-plot-characterise tools/hilcam-plot-clone tools/hilcam-plot-latency tools/hilcam-plot-soak
     tools/hilcam-plot-tradeoff tools/hilcam-camera-face tools/hilcam-record-frames
     DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT program)
+install(TARGETS hilcam-calibrate-lens RUNTIME DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT program)
 if(HILCAM_GDAL)
     # A package of its own, as GDAL brings a hundred libraries.
     install(TARGETS hilcam-read-map RUNTIME DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT maps)

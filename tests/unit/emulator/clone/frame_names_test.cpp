@@ -24,6 +24,17 @@ TEST(FrameNames, SayHowAFrameWasTaken) {
     EXPECT_DOUBLE_EQ(settings_in_name("bias_1.5s")->exposure_s, 1.5);
 }
 
+TEST(FrameNames, EdgesBoardsAndLagAreKnown) {
+    const auto board = settings_in_name("chessboard_9x6_2ms/0001");
+    ASSERT_TRUE(board);
+    EXPECT_EQ(board->kind, SeriesConfig::Kind::kChessboard);
+    EXPECT_EQ(board->corners, (std::vector<double>{9, 6}));
+    EXPECT_EQ(settings_in_name("edge_left/1")->kind, SeriesConfig::Kind::kEdge);
+    EXPECT_EQ(settings_in_name("lag_5ms/1")->kind, SeriesConfig::Kind::kLag);
+    EXPECT_TRUE(settings_in_name("chessboard_2x6/1")->corners.empty());
+    EXPECT_TRUE(settings_in_name("chessboard_9x/1")->corners.empty());
+}
+
 TEST(FrameNames, OthersAreOfNothing) {
     EXPECT_FALSE(settings_in_name("readme"));
     EXPECT_FALSE(settings_in_name("20ms_25c_0001"));
@@ -41,7 +52,7 @@ TEST(FrameNames, ContradictionsAreRefused) {
         return "accepted";
     };
     EXPECT_EQ(message("dark_20ms/flat_1"),
-              "dark_20ms/flat_1: found both dark and flat; accepted: one of them");
+              "dark_20ms/flat_1: found two kinds of frames; accepted: one of them");
     EXPECT_EQ(message("dark_20ms/5ms_1"), "dark_20ms/5ms_1: found two exposures; accepted: one, as 20ms");
     EXPECT_EQ(message("dark_20ms/20ms_1"), "accepted");
     EXPECT_EQ(message("flat_lightdim"),
