@@ -41,8 +41,8 @@ class BodyHeat {
     BodyHeat() = default;  // emits nothing
     BodyHeat(const BodyHeatConfig& config, const SpectralGrid& grid);
 
-    // A place on the body: cosine of the Sun's zenith angle, sine of the latitude, and local time as the angle
-    // since noon, positive in the afternoon.
+    // A place on the body: cosine of the Sun's zenith angle, sine of the latitude, and local time as the
+    // angle since noon, positive in the afternoon.
     struct Place {
         float mu0 = 0, sine_latitude = 0, hour_rad = 0;
     };
@@ -51,8 +51,8 @@ class BodyHeat {
     // Returns the emitted radiance [W m^-2 sr^-1 um^-1]. Loop, any thread.
     Spectrum radiance(const Place& place) const;
     const Spectrum& most() const { return most_; }
-    // Returns the irradiance by the whole disk at distance d, over (R/d)^2 [W m^-2 um^-1]; of regolith the mean of
-    // a waxing and a waning one.
+    // Returns the irradiance by the whole disk at distance d, over (R/d)^2 [W m^-2 um^-1]: for regolith the
+    // mean of a waxing and a waning disk.
     Spectrum disk_w_m2_um(double phase_rad) const;
     // Returns what is reflected of light from all directions; 0 in bins that are not thermal.
     const Spectrum& reflected() const { return reflected_; }

@@ -2,8 +2,8 @@
 // The temperature of the Moon's ground through its day: heat in one dimension through regolith whose density
 // and conductivity grow with depth and whose conductivity grows with temperature.
 //
-// Source: Hayne et al., J. Geophys. Res. Planets 122, 2371 (2017), appendix A, with its table A1; equilibrium at
-// the surface is its equation A7. Local slopes, rocks and the light of other ground are not in it.
+// Source: Hayne et al., J. Geophys. Res. Planets 122, 2371 (2017), appendix A, with its table A1. Slopes,
+// rocks and the light of other ground are not in it.
 
 #include <vector>
 
@@ -30,8 +30,8 @@ struct Regolith {
     double reflected(double mu0) const;
 };
 
-// Returns the surface's temperature [K] at a latitude, at `count` local times from noon on, evenly through the
-// day; settled, so that one day is as the next. At the equinox. count: 24 to 100000, a multiple of 24.
+// Returns the surface's temperature [K] at a latitude, at `count` local times from noon on, evenly through
+// the day; settled, so that one day is as the next. At the equinox. count: 24 to 100000, a multiple of 24.
 std::vector<double> regolith_day_k(const Regolith& regolith, double latitude_rad, int count);
 
 }  // namespace hilcam
