@@ -51,7 +51,7 @@ class OpticsLaboratory {
         if (!pieces.empty()) {
             if (out.lens)  // the aperture is the same, so diffraction depends on the f-number alone
                 camera_.focal_length_m = out.lens->focal_length_px.value * camera_.pitch_m;
-            out.blur = fit_lens_blur(camera_, std::move(pieces));
+            out.blur = fit_lens_blur(camera_, pieces);
         }
         return out;
     }

@@ -16,7 +16,7 @@ namespace {
 constexpr double kFirst_cy_px = 0.05, kLast_cy_px = 0.5;  // frequencies that count
 constexpr double kModelError =
     0.003;  // error of the edge's method; keeps quiet frequencies from ruling the fit
-constexpr int kBlurSteps = 40;
+constexpr int kBlurSteps = 24;
 constexpr double kSameHeight = 0.06;  // pieces of this difference in image height are one zone
 
 // Eight bins over the wavelengths that the camera sees.
@@ -53,17 +53,23 @@ class BlurModel {
           grid_(seen_grid(camera_)),
           response_(channel_responses(camera_, grid_).front()) {}
 
-    BlurTable table(BlurKind kind, const EdgeMtf& at) const {
+    // The lenses are the same for all pieces, and take long to compute.
+    void prepare(BlurKind kind) {
         const double wavelength_m = 0.5e-6 * (grid_.from_um(0) + grid_.to_um(grid_.size() - 1));
         // A wavefront error up to 0.25 waves; a defocus up to three waves at the pupil's edge.
         const double most = kind == BlurKind::kWavefront ? 0.25 * wavelength_m
                                                          : 3 * wavelength_m * 8 * square(camera_.f_number);
-        BlurTable out;
+        square_m2_.clear(), lenses_.clear();
         for (int i = 0; i <= kBlurSteps; ++i) {
             const double blur = most * i / kBlurSteps;
             const LensState lens = kind == BlurKind::kWavefront ? LensState{0, blur} : LensState{blur, 0};
-            const SystemMtf mtf(camera_, OpticsOtf(camera_, grid_, response_, lens));
-            out.square_m2.push_back(square(blur));
+            square_m2_.push_back(square(blur));
+            lenses_.emplace_back(camera_, OpticsOtf(camera_, grid_, response_, lens));
+        }
+    }
+    BlurTable table(const EdgeMtf& at) const {
+        BlurTable out{square_m2_, {}};
+        for (const SystemMtf& mtf : lenses_) {
             out.mtf.emplace_back();
             for (const double f : at.frequency_cy_px)
                 out.mtf.back().push_back(
@@ -76,6 +82,8 @@ class BlurModel {
     CameraModel camera_;
     SpectralGrid grid_;
     Spectrum response_;
+    std::vector<double> square_m2_;
+    std::vector<SystemMtf> lenses_;
 };
 
 bool counts(double f) { return f > kFirst_cy_px - 1e-9 && f < kLast_cy_px + 1e-9; }
@@ -132,9 +140,9 @@ struct FittedPiece {
     LensZone zone;
 };
 
-FittedPiece fit_piece(const BlurModel& model, BlurKind kind, const PlacedPiece& placed) {
+FittedPiece fit_piece(const BlurModel& model, const PlacedPiece& placed) {
     const EdgeMtf& m = placed.piece.mtf;
-    const BlurTable table = model.table(kind, m);
+    const BlurTable table = model.table(m);
     const BlurFit whole = fit(table, m, m.mtf);
     std::vector<double> without;
     for (const std::vector<double>& one : placed.piece.without)
@@ -187,18 +195,28 @@ std::vector<LensZone> zones_of(std::vector<FittedPiece> pieces) {
 
 }  // namespace
 
-LensBlur fit_lens_blur(const CameraModel& camera, std::vector<PlacedPiece> pieces) {
-    const BlurModel model(camera);
-    std::vector<FittedPiece> fitted[2];
-    double cost[2] = {0, 0};
-    for (const BlurKind kind : {BlurKind::kWavefront, BlurKind::kDefocus})
-        for (const PlacedPiece& piece : pieces) {
-            fitted[static_cast<int>(kind)].push_back(fit_piece(model, kind, piece));
-            cost[static_cast<int>(kind)] += fitted[static_cast<int>(kind)].back().cost;
-        }
+LensBlur fit_lens_blur(const CameraModel& camera, const std::vector<PlacedPiece>& pieces) {
+    BlurModel model(camera);
+    const auto fitted = [&](BlurKind kind) {
+        model.prepare(kind);
+        std::vector<FittedPiece> out;
+        for (const PlacedPiece& piece : pieces) out.push_back(fit_piece(model, piece));
+        return out;
+    };
+    const auto cost = [](const std::vector<FittedPiece>& all) {
+        double sum = 0;
+        for (const FittedPiece& one : all) sum += one.cost;
+        return sum;
+    };
+    std::vector<FittedPiece> wavefront = fitted(BlurKind::kWavefront);
+    constexpr double kWellDescribed = 0.01;
+    if (std::all_of(wavefront.begin(), wavefront.end(),
+                    [&](const FittedPiece& p) { return p.zone.misfit < kWellDescribed; }))
+        return {BlurKind::kWavefront, zones_of(std::move(wavefront))};
+    std::vector<FittedPiece> defocus = fitted(BlurKind::kDefocus);
     // Small errors of both kinds look alike; a defocus has to be clearly better.
-    const BlurKind kind = cost[1] < 0.5 * cost[0] ? BlurKind::kDefocus : BlurKind::kWavefront;
-    return {kind, zones_of(std::move(fitted[static_cast<int>(kind)]))};
+    if (cost(defocus) < 0.5 * cost(wavefront)) return {BlurKind::kDefocus, zones_of(std::move(defocus))};
+    return {BlurKind::kWavefront, zones_of(std::move(wavefront))};
 }
 
 }  // namespace hilcam

@@ -35,6 +35,6 @@ struct PlacedPiece {
     EdgePiece piece;
 };
 // camera: the clone's, without blur of the lens; lens properties that the MTF replaces do not count.
-LensBlur fit_lens_blur(const CameraModel& camera, std::vector<PlacedPiece> pieces);
+LensBlur fit_lens_blur(const CameraModel& camera, const std::vector<PlacedPiece>& pieces);
 
 }  // namespace hilcam

@@ -16,17 +16,17 @@
 namespace hilcam {
 namespace {
 
-constexpr int kSize = 256;
-constexpr std::size_t kFrames = 16;
+constexpr int kLensSize = 256;
+constexpr std::size_t kEdgeFrames = 16;
 
-CameraModel sheet() {
+CameraModel lens_sheet() {
     CameraModel c;
     read_config_text(
         fmt::format(
             "name: sheet\nwidth_px: {0}\nheight_px: {0}\npitch_um: 4.5\nfocal_length_mm: 12\n"
             "f_number: 4\ncos_power: 0\nquantum_efficiency: [[0.54, 0], [0.541, 0.6], [0.559, 0.6], "
             "[0.56, 0]]\nfull_well_e: 10000\ngain_dn_e: 0.35\noffset_dn: 60\nread_noise_e: 5\nbits: 12\n",
-            kSize),
+            kLensSize),
         "sheet.yaml", "/", section_of(c));
     return c;
 }
@@ -44,7 +44,7 @@ HiddenLens hidden_lens(unsigned seed) {
     const auto between = [&](double a, double b) {
         return std::uniform_real_distribution<double>(a, b)(engine);
     };
-    HiddenLens out{sheet(), between(25e-9, 45e-9), between(50e-9, 80e-9)};
+    HiddenLens out{lens_sheet(), between(25e-9, 45e-9), between(50e-9, 80e-9)};
     out.camera.field_zones = {{0, 0, out.middle_m}, {1, 0, out.corner_m}};
     return out;
 }
@@ -53,7 +53,7 @@ FrameSeries edge_series(CameraBench& bench, double tilt_deg) {
     bench.show({0.8, 0.1, tilt_deg * kDegree_rad});
     FrameSeries s;
     s.name = fmt::format("edge_{:g}deg", tilt_deg);
-    s.kind = SeriesKind::kEdge, s.frames = kFrames;
+    s.kind = SeriesKind::kEdge, s.frames = kEdgeFrames;
     s.read = [&bench](std::size_t i, DnImage& frame) {
         const DnImage& taken = bench.frame(i);
         std::copy(taken.all().begin(), taken.all().end(), frame.all().begin());
@@ -64,8 +64,8 @@ FrameSeries edge_series(CameraBench& bench, double tilt_deg) {
 // What darks and flats of that camera show.
 CloneMeasurement pixels_of(const CameraModel& c) {
     CloneMeasurement m;
-    m.width = m.height = kSize, m.bits = 12;
-    m.good = PixelSelection(0, 0, kSize, kSize);
+    m.width = m.height = kLensSize, m.bits = 12;
+    m.good = PixelSelection(0, 0, kLensSize, kLensSize);
     m.gain_dn_e = {c.gain_dn_e, 0}, m.offset_dn = {c.offset_dn, 0}, m.read_noise_e = {c.read_noise_e, 0};
     m.offset_e.value.assign(m.good.use.size(), 0.0);
     m.gain.value.assign(m.good.use.size(), 1.0);
@@ -80,13 +80,14 @@ CloneOptics measured(const HiddenLens& hidden, double tilt_deg, unsigned seed) {
     bench.show({0.8, 0.8, 0});
     bench.expose(exposure, 1);
     // As bright as 80 % of the full well.
-    const double dn = static_cast<double>(bench.frame(0).row(kSize / 2)[kSize / 2]) - hidden.camera.offset_dn;
+    const double dn =
+        static_cast<double>(bench.frame(0).row(kLensSize / 2)[kLensSize / 2]) - hidden.camera.offset_dn;
     const double filter = 0.8 * hidden.camera.full_well_e * hidden.camera.gain_dn_e / std::max(dn, 1.0);
     bench.expose(exposure, filter);
     FrameSet frames;
-    frames.name = "hidden", frames.width = frames.height = kSize, frames.bits = 12;
+    frames.name = "hidden", frames.width = frames.height = kLensSize, frames.bits = 12;
     frames.others.push_back(edge_series(bench, tilt_deg));
-    return measure_optics(frames, sheet(), pixels_of(hidden.camera));
+    return measure_optics(frames, lens_sheet(), pixels_of(hidden.camera));
 }
 
 TEST(CloneLens, HiddenWavefrontErrorsComeBackOverTheField) {

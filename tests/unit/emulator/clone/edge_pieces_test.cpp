@@ -71,7 +71,7 @@ std::vector<EdgePiece> measured(const EdgeShape& s) {
     return measure_edge_pieces(draw(s).view(s.noise), "edge");
 }
 
-std::string refusal(const Picture& picture) {
+std::string edge_refusal(const Picture& picture) {
     try {
         measure_edge_pieces(picture.view(5), "edge_2ms");
     } catch (const InputError& error) {
@@ -124,15 +124,16 @@ TEST(EdgePieces, ABentEdgeIsFollowed) {
 TEST(EdgePieces, OthersAreRefused) {
     EdgeShape upright, steep, blurred;
     upright.tilt_deg = 0, steep.tilt_deg = 45;
-    EXPECT_THAT(refusal(draw(upright)), HasSubstr("edge_2ms: found an edge at 0.0 degrees from the columns; "
-                                                  "accepted: one straight edge"));
-    EXPECT_THAT(refusal(draw(steep)), HasSubstr("found an edge at 45.0 degrees"));
+    EXPECT_THAT(edge_refusal(draw(upright)),
+                HasSubstr("edge_2ms: found an edge at 0.0 degrees from the columns; "
+                          "accepted: one straight edge"));
+    EXPECT_THAT(edge_refusal(draw(steep)), HasSubstr("found an edge at 45.0 degrees"));
     Picture flat = draw({});
     for (double& value : flat.value) value = 500 + std::fmod(value, 5);
-    EXPECT_THAT(refusal(flat), HasSubstr("edge_2ms: found no edge in"));
+    EXPECT_THAT(edge_refusal(flat), HasSubstr("edge_2ms: found no edge in"));
     Picture small = draw({});
     small.height = 30;
-    EXPECT_THAT(refusal(small), HasSubstr("found a picture of 160 x 30"));
+    EXPECT_THAT(edge_refusal(small), HasSubstr("found a picture of 160 x 30"));
 }
 
 TEST(EdgePieces, AJackknifeOfAMeanIsItsStandardError) {
