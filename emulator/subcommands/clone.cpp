@@ -109,7 +109,7 @@ void add_clone_command(CLI::App& app, Action& action) {
     CLI::App* command =
         app.add_subcommand("clone", "make a camera file with the flaws of your camera, from its frames");
     command
-        ->add_option("frames", o->frames,
+        ->add_option("source", o->frames,
                      "folder of darks and flats (docs/clone.md), or the address of a GigE Vision camera")
         ->required();
     command

@@ -195,7 +195,6 @@ ScatteringLayers scattering_layers(std::span<const double> moments, int streams,
         Layer layer = thin_layer(mode, std::exp2(kThinnest), out.scaled_moments, left, q);
         Layer half = layer;
         const auto keep = [&](const Layer& from, ScatteringLayer& to) {
-            to.thickness = from.thickness;
             Matrix r(asked * asked), t(asked * asked);
             for (Index i = 0; i < asked; ++i)
                 for (Index j = 0; j < asked; ++j) {
@@ -205,6 +204,7 @@ ScatteringLayers scattering_layers(std::span<const double> moments, int streams,
             to.reflection[static_cast<Index>(mode)] = std::move(r);
             to.transmission[static_cast<Index>(mode)] = std::move(t);
             if (mode > 0) return;
+            to.thickness = from.thickness;  // that of all modes
             to.plane_albedo.assign(asked, 0), to.transmitted.assign(asked, 0);
             for (Index j = 0; j < asked; ++j) {
                 for (Index i = 0; i < g; ++i) {
