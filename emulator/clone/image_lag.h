@@ -17,9 +17,8 @@ struct ImageLag {
 };
 
 // means: mean values of the frames, in the order of their taking [any unit that is linear in light], bright
-// ones first;
-// the light may go on and off several times. Throws InputError, one line, for frames without bright ones that
-// at least twelve dark ones follow.
+// ones first; the light may go on and off several times. Throws InputError, one line, for frames without
+// bright ones that at least twelve dark ones follow.
 ImageLag image_lag(std::span<const double> means, const std::string& name);
 
 }  // namespace hilcam
