@@ -88,17 +88,15 @@ std::vector<NamedSeries> series_by_names(const fs::path& folder) {
         fs::path name = file;
         const std::optional<SeriesConfig> s = settings_in_name(name.replace_extension().string());
         if (!s) continue;
-        const bool measures_pixels =
-            s->kind == SeriesConfig::Kind::kDark || s->kind == SeriesConfig::Kind::kFlat;
-        if (measures_pixels && s->exposure_s <= 0)
+        if (shows_pixels(s->kind) && s->exposure_s <= 0)
             throw InputError((folder / file).string() +
                              ": found no exposure in the name; accepted: one such as 20ms, 250us or 1.5s");
-        if (s->kind == SeriesConfig::Kind::kChessboard && s->corners.empty())
+        if (s->kind == SeriesKind::kChessboard && s->corners.empty())
             throw InputError((folder / file).string() +
                              ": found no number of corners in the name; accepted: the inner corners of the "
                              "chessboard, as chessboard_9x6");
         // Each edge, and each board, is a folder of its own.
-        const std::string place = measures_pixels ? "" : file.parent_path().string();
+        const std::string place = shows_pixels(s->kind) ? "" : file.parent_path().string();
         const Key key{static_cast<int>(s->kind),
                       s->exposure_s,
                       s->has_temperature_c ? s->temperature_c : -1e3,
@@ -196,23 +194,7 @@ FramesConfig config_of(const fs::path& folder, const RawShape& shape, const Came
 FrameSeries series_of(const NamedSeries& named, const std::shared_ptr<FrameFiles>& files) {
     FrameSeries out;
     out.name = named.name;
-    switch (named.settings.kind) {
-        case SeriesConfig::Kind::kDark:
-            out.kind = SeriesKind::kDark;
-            break;
-        case SeriesConfig::Kind::kFlat:
-            out.kind = SeriesKind::kFlat;
-            break;
-        case SeriesConfig::Kind::kEdge:
-            out.kind = SeriesKind::kEdge;
-            break;
-        case SeriesConfig::Kind::kChessboard:
-            out.kind = SeriesKind::kChessboard;
-            break;
-        case SeriesConfig::Kind::kLag:
-            out.kind = SeriesKind::kLag;
-            break;
-    }
+    out.kind = named.settings.kind;
     if (named.settings.corners.size() == 2) {
         out.corner_columns = static_cast<int>(named.settings.corners[0]);
         out.corner_rows = static_cast<int>(named.settings.corners[1]);
@@ -248,8 +230,7 @@ FrameSet read_frame_folder(const fs::path& folder, const RawShape& shape, const 
     out.bits = static_cast<int>(config.bits);
     for (const NamedSeries& one : named) {
         FrameSeries series = series_of(one, files);
-        const bool measures_pixels = series.kind == SeriesKind::kDark || series.kind == SeriesKind::kFlat;
-        (measures_pixels ? out.series : out.others).push_back(std::move(series));
+        (shows_pixels(series.kind) ? out.series : out.others).push_back(std::move(series));
     }
     return out;
 }

@@ -35,8 +35,8 @@ std::optional<double> exposure_in(std::string_view word) {
     return std::nullopt;
 }
 
-std::optional<SeriesConfig::Kind> kind_in(std::string_view word) {
-    using Kind = SeriesConfig::Kind;
+std::optional<SeriesKind> kind_in(std::string_view word) {
+    using Kind = SeriesKind;
     for (const auto& [name, kind] : {std::pair{"dark", Kind::kDark},
                                      {"bias", Kind::kDark},
                                      {"flat", Kind::kFlat},
@@ -77,7 +77,7 @@ class Words {
 
   private:
     void take(const std::string& word) {
-        if (const std::optional<SeriesConfig::Kind> kind = kind_in(word)) {
+        if (const std::optional<SeriesKind> kind = kind_in(word)) {
             if (has_kind_ && out_.kind != *kind) refuse("two kinds of frames", "one of them");
             out_.kind = *kind, has_kind_ = true;
         } else if (const std::vector<double> corners = corners_in(word); !corners.empty()) {

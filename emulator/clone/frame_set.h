@@ -13,6 +13,8 @@
 namespace hilcam {
 
 enum class SeriesKind { kDark, kFlat, kEdge, kChessboard, kLag };
+// True for frames that show pixels; the others show the lens or the lag.
+inline bool shows_pixels(SeriesKind kind) { return kind == SeriesKind::kDark || kind == SeriesKind::kFlat; }
 
 struct FrameSeries {
     std::string name;  // for messages: the folder or the file names' common part

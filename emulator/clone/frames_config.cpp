@@ -23,10 +23,9 @@ Fields fields(SeriesConfig& s) {
 
 void validate(const SeriesConfig& s) {
     if (s.files.empty()) throw refused_key("files", "no name", "names, such as [\"dark_10ms/*.png\"]");
-    const bool measures_pixels = s.kind == SeriesConfig::Kind::kDark || s.kind == SeriesConfig::Kind::kFlat;
-    if (measures_pixels && s.exposure_s < 1e-9)
+    if (shows_pixels(s.kind) && s.exposure_s < 1e-9)
         throw refused_key("exposure_ms", "none", "the exposure time of the darks or flats [ms]");
-    if (s.kind == SeriesConfig::Kind::kChessboard && s.corners.empty())
+    if (s.kind == SeriesKind::kChessboard && s.corners.empty())
         throw refused_key("corners", "none", "inner corners of the chessboard, as [9, 6]");
     for (const double corner : s.corners)
         if (corner != std::floor(corner))

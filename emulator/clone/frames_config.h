@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "emulator/clone/frame_set.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
 
 struct SeriesConfig {
-    enum class Kind { kDark, kFlat, kEdge, kChessboard, kLag } kind = Kind::kDark;
+    SeriesKind kind = SeriesKind::kDark;
     double exposure_s = 0;
     double temperature_c = 0;
     bool has_temperature_c = false;

@@ -1,16 +1,17 @@
 #include "emulator/clone/lens_calibration.h"
 
 #include <spdlog/fmt/fmt.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "emulator/run/page_maker.h"
+#include "emulator/run/run_helper.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -24,10 +25,11 @@ constexpr double kWorstFocal = 0.02, kWorstResidual_px = 1;
 
 class WorkFolder {
   public:
-    WorkFolder() : path_(fs::temp_directory_path() / fmt::format("hilcam-boards-{}", getpid())) {
-        std::error_code error;
-        fs::create_directories(path_, error);
-        if (error) throw DeviceError(path_.string() + ": cannot be made: " + error.message());
+    WorkFolder() {
+        std::string name = (fs::temp_directory_path() / "hilcam-boards-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw DeviceError(name + ": cannot be made: " + std::strerror(errno));
+        path_ = name;
     }
     WorkFolder(const WorkFolder&) = delete;
     WorkFolder& operator=(const WorkFolder&) = delete;

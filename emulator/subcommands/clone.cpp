@@ -10,7 +10,7 @@
 #include "emulator/clone/clone_report.h"
 #include "emulator/clone/frame_folder.h"
 #include "emulator/progress/progress.h"
-#include "emulator/run/page_maker.h"
+#include "emulator/run/run_helper.h"
 #include "emulator/send/command_examples.h"
 #include "emulator/subcommands/arguments.h"
 #include "io/config/config_yaml.h"

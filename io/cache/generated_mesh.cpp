@@ -1,13 +1,10 @@
 #include "io/cache/generated_mesh.h"
 
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 
 #include "io/system/program_files.h"
+#include "io/system/run_program.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -17,19 +14,6 @@ namespace {
 // Raise this when a generator makes another mesh for the same arguments.
 constexpr int kMeshVersion = 2;
 
-int run(const std::filesystem::path& program, std::vector<std::string> words) {
-    std::vector<char*> argv;
-    argv.reserve(words.size() + 1);
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    pid_t child = 0;
-    if (posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ) != 0) return -1;
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 bool is_plain(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_'; }
 
 void generate(const std::string& program, const std::vector<std::string>& arguments,
@@ -38,10 +22,9 @@ void generate(const std::string& program, const std::vector<std::string>& argume
     if (!std::filesystem::exists(beside))
         throw InputError("mesh generator " + beside.string() +
                          " is missing; build it, or give the object a mesh file");
-    std::vector<std::string> words = {program};
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<std::string> words = arguments;
     words.insert(words.end(), {"--out", file.string()});
-    const int status = run(beside, words);
+    const int status = run_program(beside, words).value_or(-1);
     if (status == 2) throw InputError("mesh generator " + program + " refuses its arguments (see above)");
     if (status != 0 || !std::filesystem::exists(file))
         throw DeviceError("mesh generator " + program + " failed with status " + std::to_string(status) +

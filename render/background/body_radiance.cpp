@@ -14,6 +14,13 @@ Vec3f mean_texel(const MipTexture& map) {
     return map.mean([](double v) { return std::cos(kPi * (v - 0.5)); });
 }
 
+// Returns the place with that level normal, in body axes.
+BodyHeat::Place place_of(Vec3d level, Vec3d sun_dir, double mu0) {
+    const double hour_rad =
+        std::atan2(sun_dir.x * level.y - sun_dir.y * level.x, sun_dir.x * level.x + sun_dir.y * level.y);
+    return {static_cast<float>(mu0), static_cast<float>(level.z), static_cast<float>(hour_rad)};
+}
+
 }  // namespace
 
 BodyRadiance::BodyRadiance(const SceneBodies& scene, const SpectralGrid& grid)
@@ -61,16 +68,6 @@ double BodyRadiance::met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) cons
     const double distance_m = relief.intersect(origin_m, dir / per_length);
     return distance_m < 0 ? distance_m : distance_m / per_length;
 }
-
-namespace {
-
-BodyHeat::Place place_of(Vec3d level, Vec3d sun_dir, double mu0) {
-    const double hour_rad =
-        std::atan2(sun_dir.x * level.y - sun_dir.y * level.x, sun_dir.x * level.x + sun_dir.y * level.y);
-    return {static_cast<float>(mu0), static_cast<float>(level.z), static_cast<float>(hour_rad)};
-}
-
-}  // namespace
 
 Spectrum BodyRadiance::surface(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir,
                                const Eclipses& eclipses) const {

@@ -1,9 +1,9 @@
 #include "render/sky/body_heat.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <tbb/parallel_for.h>
 
 #include "render/sky/regolith.h"
 #include "render/vocabulary/check.h"
@@ -12,6 +12,8 @@
 
 namespace hilcam {
 namespace {
+
+constexpr double kLeastEmissivity = 0.5;  // a regolith that emits less is no measured one
 
 Spectrum emitted(const BodyHeatConfig& c, const SpectralGrid& grid, double kelvin) {
     Spectrum sent = static_cast<float>(c.emissivity) * planck_w_m2_sr_um(grid, kelvin);
@@ -52,7 +54,7 @@ BodyHeatConfig default_heat(BodyId id) {
         case BodyId::kEarth:
             return {254, 254, 1};
         case BodyId::kMoon:
-            return {385, 95, 0.95, BodyHeatConfig::Model::kRegolith};
+            return {385, 95, 0.95, BodyHeatConfig::Model::kRegolith, 0.12, true};
         case BodyId::kMars:
             return {280, 180, 0.95};
         case BodyId::kJupiter:
@@ -83,6 +85,11 @@ Fields fields(BodyHeatConfig& c) {
 void validate(const BodyHeatConfig& c) {
     if (c.night_k > c.noon_k)
         throw refused_key("night_k", plain(c.night_k), "at most noon_k, which is " + plain(c.noon_k));
+    if (c.model != BodyHeatConfig::Model::kRegolith) return;
+    if (!c.has_regolith) throw refused_key("model", "regolith", "grey; regolith is the ground of the Moon");
+    if (c.emissivity < kLeastEmissivity)
+        throw refused_key("emissivity", plain(c.emissivity),
+                          "at least " + plain(kLeastEmissivity) + " for regolith");
 }
 
 BodyHeat::BodyHeat(const BodyHeatConfig& c, const SpectralGrid& grid) : solar_bins_(grid.solar_bins()) {

@@ -25,7 +25,8 @@ struct BodyHeatConfig {
     double noon_k = 250, night_k = 250;  // grey
     double emissivity = 0.95;
     Model model = Model::kGrey;
-    double albedo = 0.12;  // regolith, of sunlight from the zenith
+    double albedo = 0.12;       // regolith, of sunlight from the zenith
+    bool has_regolith = false;  // true for the Moon, whose ground regolith.h describes
 };
 // The Moon: Hayne et al., J. Geophys. Res. Planets 122, 2371 (2017). Mercury: Vasavada et al., Icarus 141,
 // 179 (1999), equator at 0.39 au. Mars: range of the equator (Kieffer et al., 1977). Others are even, at
@@ -33,7 +34,8 @@ struct BodyHeatConfig {
 // (Pearl & Conrath, J. Geophys. Res. 96, 18921, 1991).
 BodyHeatConfig default_heat(BodyId id);
 Fields fields(BodyHeatConfig& config);
-// Throws KeyError for a night that is hotter than noon.
+// Throws KeyError for a night that is hotter than noon, and for regolith on another body than the Moon or with an
+// emissivity below 0.5.
 void validate(const BodyHeatConfig& config);
 
 class BodyHeat {

@@ -14,7 +14,8 @@ namespace {
 constexpr double kLayersInSkinDepth = 10, kGrowth = 0.2, kSkinDepths = 20;
 constexpr int kStepsADay = 480;  // at least; an hour and a half
 constexpr int kMostDays = 200;
-constexpr double kSettled_k = 5e-3;  // from one day to the next, at any time of the day
+constexpr double kSettled_k = 1e-3;  // from one day to the next, at any time of the day
+constexpr double kDaysReach = 5;     // skin depths; the day's wave is then below a hundredth of the surface's
 
 double cube(double x) { return x * x * x; }
 
@@ -25,9 +26,9 @@ class Column {
     Column(const Regolith& regolith, double mean_k) : r_(regolith) {
         const double kappa = r_.contact_w_m_k(0) * (1 + r_.radiative * cube(mean_k / 350)) /
                              (r_.density_kg_m3(0) * Regolith::heat_capacity_j_kg_k(mean_k));
-        const double skin_m = std::sqrt(kappa * r_.day_s / kPi);
+        skin_m_ = std::sqrt(kappa * r_.day_s / kPi);
         depth_m_.push_back(0);
-        for (double thick_m = skin_m / kLayersInSkinDepth; depth_m_.back() < kSkinDepths * skin_m;
+        for (double thick_m = skin_m_ / kLayersInSkinDepth; depth_m_.back() < kSkinDepths * skin_m_;
              thick_m *= 1 + kGrowth)
             depth_m_.push_back(depth_m_.back() + thick_m);
         kelvin_.assign(depth_m_.size(), mean_k);
@@ -38,10 +39,25 @@ class Column {
             if (below_m > 0)
                 contact_w_m2_k_.push_back(r_.contact_w_m_k(depth_m_[i] + below_m) / (2 * below_m));
         }
-        for (auto* line : {&lower_, &middle_, &upper_, &right_, &before_}) line->resize(depth_m_.size());
+        for (auto* line : {&lower_, &middle_, &upper_, &right_, &before_, &day_sum_})
+            line->resize(depth_m_.size());
     }
 
     double surface_k() const { return kelvin_[0]; }
+    // Ends a day. Below the depth that feels the day, the heat from below flows evenly, so years of warming through
+    // are skipped: each node there gets the mean temperature of the node above, and what drives that heat.
+    void settle_depth() {
+        for (double& sum : day_sum_) sum /= steps_;
+        for (std::size_t i = 1; i < kelvin_.size(); ++i)
+            if (depth_m_[i - 1] > kDaysReach * skin_m_) {
+                const double above_k = day_sum_[i - 1];
+                day_sum_[i] = above_k + r_.inner_heat_w_m2 / (contact_w_m2_k_[i - 1] *
+                                                              (1 + r_.radiative * cube(above_k / 350)));
+                kelvin_[i] = day_sum_[i];
+            }
+        std::fill(day_sum_.begin(), day_sum_.end(), 0.0);
+        steps_ = 0;
+    }
 
     // Goes on by dt with so much light absorbed at its end: backward Euler, twice for the conductivity and the
     // emission that belong to the new temperatures.
@@ -51,6 +67,8 @@ class Column {
             set_up(dt_s, absorbed_w_m2);
             solve();
         }
+        for (std::size_t i = 0; i < kelvin_.size(); ++i) day_sum_[i] += kelvin_[i];
+        ++steps_;
     }
 
   private:
@@ -88,8 +106,10 @@ class Column {
     }
 
     const Regolith& r_;
-    std::vector<double> depth_m_, mass_kg_m2_, contact_w_m2_k_, kelvin_, before_, lower_, middle_, upper_,
-        right_;
+    double skin_m_ = 0;
+    int steps_ = 0;  // since the day began
+    std::vector<double> depth_m_, mass_kg_m2_, contact_w_m2_k_, kelvin_, day_sum_, before_, lower_, middle_,
+        upper_, right_;
 };
 
 }  // namespace
@@ -139,6 +159,7 @@ std::vector<double> regolith_day_k(const Regolith& r, double latitude_rad, int c
         for (std::size_t i = 0; i < day.size(); ++i) change = std::max(change, std::abs(day[i] - last[i]));
         if (change < kSettled_k) break;
         last = day;
+        column.settle_depth();
     }
     return day;
 }

@@ -13,6 +13,8 @@ import tempfile
 import time
 import unittest
 
+import plate
+
 try:
     import gi
     gi.require_version("Aravis", "0.8")
@@ -41,20 +43,7 @@ frame_rate_hz: 100
 frame_rate_range_hz: [0.1, 200]
 """
 TRUTH = {"gain_dn_e": 0.33, "read_noise_e": 6.2, "full_well_e": 10300}
-SCENE = f"""name: plate
-time_utc: 2026-03-20T14:00:00Z
-origin: {{kind: free}}
-sun: {{direction: [0, 0, 1], distance_au: 2.2}}
-camera: real.yaml
-camera_pose: {{position_m: [0, 0, 20], attitude: look_at, look_at_m: [0, 0, 0], up: [0, 1, 0]}}
-objects:
-  - name: plate
-    mesh: plate.obj
-    materials: {{surfaces: [{{name: "*", material: {{model: lambert, reflectance: 0.5}}}}]}}
-spectrum_edges_um: [0.54, 0.56]
-quality: fast
-loop: {{levels: fixed}}
-commands: {{udp: {{port: {PORT}}}}}
+DEVICES = f"""commands: {{udp: {{port: {PORT}}}}}
 outputs: {{gige: {{interface: {ADDRESS}, serial: LIVE}}}}
 """
 
@@ -69,8 +58,7 @@ class CloneLive(unittest.TestCase):
         for key, value in {**TRUTH, "offset_dn": 71}.items():
             real = "\n".join(f"{key}: {value}" if line.startswith(f"{key}:") else line for line in real.splitlines()) + "\n"
         (cls.folder / "real.yaml").write_text(real)
-        (cls.folder / "plate.obj").write_text("v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n")
-        (cls.folder / "plate.yaml").write_text(SCENE)
+        plate.write(cls.folder, "real.yaml", 2.2, DEVICES)
         cls.log = open(cls.folder / "run.log", "w+")
         cls.camera = subprocess.Popen([HILCAM, "run", "plate.yaml"], cwd=cls.folder, stderr=cls.log, stdout=cls.log)
         for _ in range(100):

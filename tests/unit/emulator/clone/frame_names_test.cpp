@@ -10,13 +10,13 @@ namespace {
 TEST(FrameNames, SayHowAFrameWasTaken) {
     const auto dark = settings_in_name("dark_20ms_-10c/0001");
     ASSERT_TRUE(dark);
-    EXPECT_EQ(dark->kind, SeriesConfig::Kind::kDark);
+    EXPECT_EQ(dark->kind, SeriesKind::kDark);
     EXPECT_DOUBLE_EQ(dark->exposure_s, 0.02);
     EXPECT_TRUE(dark->has_temperature_c);
     EXPECT_EQ(dark->temperature_c, -10);
     const auto flat = settings_in_name("lab/Flat_250us_6dB_light0.5_frame_007");
     ASSERT_TRUE(flat);
-    EXPECT_EQ(flat->kind, SeriesConfig::Kind::kFlat);
+    EXPECT_EQ(flat->kind, SeriesKind::kFlat);
     EXPECT_DOUBLE_EQ(flat->exposure_s, 250e-6);
     EXPECT_FALSE(flat->has_temperature_c);
     EXPECT_EQ(flat->gain_db, 6);
@@ -27,10 +27,10 @@ TEST(FrameNames, SayHowAFrameWasTaken) {
 TEST(FrameNames, EdgesBoardsAndLagAreKnown) {
     const auto board = settings_in_name("chessboard_9x6_2ms/0001");
     ASSERT_TRUE(board);
-    EXPECT_EQ(board->kind, SeriesConfig::Kind::kChessboard);
+    EXPECT_EQ(board->kind, SeriesKind::kChessboard);
     EXPECT_EQ(board->corners, (std::vector<double>{9, 6}));
-    EXPECT_EQ(settings_in_name("edge_left/1")->kind, SeriesConfig::Kind::kEdge);
-    EXPECT_EQ(settings_in_name("lag_5ms/1")->kind, SeriesConfig::Kind::kLag);
+    EXPECT_EQ(settings_in_name("edge_left/1")->kind, SeriesKind::kEdge);
+    EXPECT_EQ(settings_in_name("lag_5ms/1")->kind, SeriesKind::kLag);
     EXPECT_TRUE(settings_in_name("chessboard_2x6/1")->corners.empty());
     EXPECT_TRUE(settings_in_name("chessboard_9x/1")->corners.empty());
 }

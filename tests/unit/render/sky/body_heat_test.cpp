@@ -84,6 +84,15 @@ TEST(BodyHeat, ANightHotterThanNoonIsRefused) {
     EXPECT_NO_THROW(validate(BodyHeatConfig{200, 200, 1}));
 }
 
+TEST(BodyHeat, RegolithIsTheMoonsAlone) {
+    BodyHeatConfig mars = default_heat(BodyId::kMars), moon = default_heat(BodyId::kMoon);
+    mars.model = BodyHeatConfig::Model::kRegolith;
+    EXPECT_THROW(validate(mars), KeyError);
+    EXPECT_NO_THROW(validate(moon));
+    moon.emissivity = 0;  // would be infinitely hot
+    EXPECT_THROW(validate(moon), KeyError);
+}
+
 TEST(BodyHeat, WithoutThermalBinsThereIsNone) {
     EXPECT_TRUE(BodyHeat(default_heat(BodyId::kMoon), SpectralGrid({0.4, 2.5})).none());
 }
