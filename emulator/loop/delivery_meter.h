@@ -55,7 +55,7 @@ class LatestFrames {
 std::vector<LatestFrames::Entry> merged(std::span<const LatestFrames::Entry> a,
                                         std::span<const LatestFrames::Entry> b);
 
-// Counts the frames whose latency exceeds a bound. One thread writes. Others may read after it has been joined.
+// Counts the frames whose latency exceeds a bound. One thread writes. Others read after it has been joined.
 struct FramesAbove {
     std::uint64_t frames = 0, first = 0;  // first: id of the first one; 0: none
     std::int64_t max_ns = 0;              // longest latency of all frames that count, above the bound or not

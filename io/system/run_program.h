@@ -8,8 +8,8 @@
 
 namespace hilcam {
 
-// Runs the program with this one's standard input and output. arguments: without its own name. Returns its exit
-// status, -1 when a signal ended it; nothing when it cannot be started.
+// Runs the program with this one's standard input and output. arguments: without its own name. Returns its
+// exit status, -1 when a signal ended it; nothing when it cannot be started.
 std::optional<int> run_program(const std::filesystem::path& program, std::vector<std::string> arguments);
 
 }  // namespace hilcam

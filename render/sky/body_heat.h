@@ -34,8 +34,8 @@ struct BodyHeatConfig {
 // (Pearl & Conrath, J. Geophys. Res. 96, 18921, 1991).
 BodyHeatConfig default_heat(BodyId id);
 Fields fields(BodyHeatConfig& config);
-// Throws KeyError for a night that is hotter than noon, and for regolith on another body than the Moon or with an
-// emissivity below 0.5.
+// Throws KeyError for a night that is hotter than noon, and for regolith on another body than the Moon or
+// with an emissivity below 0.5.
 void validate(const BodyHeatConfig& config);
 
 class BodyHeat {

@@ -5,10 +5,10 @@
 // serves the control port.
 //
 // A client writes to a register: the camera sets the features whose bits change, and then runs the commands
-// whose bits are set. If one of them is refused, the client gets an error and the memory keeps its old bytes; features
-// that were set before it stay set. A row of the table may depend on the vendor's selectors; while they have
-// other values, its register is plain memory. Formulas invert with rounding, so a number that hilcam took
-// reads back as the number that was written.
+// whose bits are set. If one of them is refused, the client gets an error and the memory keeps its old bytes;
+// features that were set before it stay set. A row of the table may depend on the vendor's selectors; while
+// they have other values, its register is plain memory. Formulas invert with rounding, so a number that
+// hilcam took reads back as the number that was written.
 
 #include <cstdint>
 #include <map>
